@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""After `cmake --install`: find_package(algest), algest_add_estimator, and what each component holds."""
+import tempfile
+import unittest
+from pathlib import Path
+
+from consumers import build, copy_consumer, install
+from environment import CXX, SOURCE, run
+
+
+def files(folder):
+    return {str(file.relative_to(folder)) for file in Path(folder).rglob("*") if file.is_file()}
+
+
+class Installed(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def test_runtime_component_is_headers_licence_and_package(self):
+        install(self.folder, "runtime")
+        headers = {f"include/algest/{file.name}" for file in (SOURCE / "runtime/include/algest").iterdir()}
+        package = {f"share/cmake/algest_runtime/algest_runtimeConfig{end}.cmake" for end in ("", "Version")}
+        self.assertEqual(files(self.folder), headers | package | {"share/doc/algest_runtime/LICENSE"})
+
+    def test_host_component_has_no_header(self):
+        install(self.folder, "host")
+        installed = files(self.folder)
+        self.assertIn("bin/algest", installed)
+        self.assertIn("share/cmake/algest/algestConfig.cmake", installed)
+        self.assertEqual([file for file in installed if file.endswith((".hpp", ".a"))], [])
+
+    def test_consumer_builds_runs_and_follows_its_model(self):
+        install(self.folder / "first", "runtime", "host")
+        prefix = (self.folder / "first").rename(self.folder / "moved")  # the package can be moved
+        consumer = copy_consumer(self.folder)
+        folder = build(consumer, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={CXX}")
+        run(folder / "controller")
+        self.assertIn("no work to do", run("ninja", "-C", folder))
+
+        header = folder / "estimators/coil/series_coil/series_coil.hpp"
+        before = header.read_bytes()
+        model = consumer / "coil.toml"
+        model.write_text(model.read_text().replace("window = 0.1", "window = 0.12"))
+        run("ninja", "-C", folder)
+        self.assertNotEqual(header.read_bytes(), before)
+        run(folder / "controller")
+
+
+if __name__ == "__main__":
+    unittest.main()
