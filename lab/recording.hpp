@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A measured recording: a CSV file with a header `name [unit]` and a uniform column `t`, read and checked whole.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/diagnostics.hpp"
+
+namespace algest::lab {
+
+/// One column as it stands in the file.
+struct Column {
+    std::string name;
+    std::optional<std::string> unit;  ///< as written between the brackets; nullopt: no brackets
+    int place;                        ///< character column of its header
+    std::vector<double> values;       ///< finite, one a row, in the unit of the file
+};
+
+struct Recording {
+    std::string file;
+    std::vector<Column> columns;  ///< in the order of the file, t among them; names are distinct
+    std::vector<double> t;        ///< s, increasing, uniform
+    int time_place;               ///< character column of the header of t
+    double period;                ///< s, mean step
+    double period_uncertainty;    ///< s, from the digits in which t is written
+
+    std::size_t samples() const { return t.size(); }
+    const Column* column(const std::string& name) const;  ///< null: there is none
+    std::string column_names() const;                     ///< for messages: `a`, `b`, `t`
+};
+
+/// Complaints after which reading stops.
+constexpr int most_complaints = 20;
+
+/// Reads the file. Accepted: UTF-8 with or without byte-order mark, LF or CRLF, quoted fields, blanks around fields, blank
+/// lines at the end, two rows or more. Refused with line and column: everything that is no plain finite number in a field,
+/// rows of another length than the header, columns of one name, a time that is not uniform (check_uniform) or has no unit
+/// of time, and what TextLines refuses. Nullopt if anything was refused.
+/// Cost: linear in the file; all columns are kept in memory, 8 bytes a value.
+std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics);
+
+/// What a model says of a measured signal.
+struct WantedSignal {
+    std::string name;
+    std::string column;  ///< name of the column
+    std::string unit;    ///< empty: not declared, values are taken as they are
+};
+
+/// The samples of one signal in the model's unit; nullopt, and an error in `diagnostics`, if the column is missing or its
+/// unit cannot be converted. A unit that UDUNITS does not know fits only the identical text or a model without unit. A
+/// column without unit is taken to be in the model's, with a warning. Cost: one multiplication and addition a row.
+std::optional<std::vector<double>> signal_values(const Recording& recording, const WantedSignal& wanted,
+                                                 Diagnostics& diagnostics);
+
+}  // namespace algest::lab

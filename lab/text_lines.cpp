@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/text_lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+namespace algest::lab {
+
+int character_column(std::string_view line, std::size_t offset) {
+    int column = 1;
+    for (std::size_t k = 0; k < offset && k < line.size(); ++k) {
+        const bool continues = (static_cast<unsigned char>(line[k]) & 0xC0U) == 0x80U;
+        if (!continues) ++column;
+    }
+    return column;
+}
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t most = 40;
+    std::string out = "'";
+    std::size_t length = std::min(text.size(), most);
+    while (length > 0 && length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
+    for (const char c : text.substr(0, length)) {
+        const auto byte = static_cast<unsigned char>(c);
+        out += byte < 0x20U || byte == 0x7FU ? '?' : c;
+    }
+    return out + (length < text.size() ? "...'" : "'");
+}
+
+TextLines::TextLines(const std::string& path, Diagnostics& diagnostics) : path_(path), diagnostics_(&diagnostics) {
+    std::error_code no_matter;
+    if (std::filesystem::is_directory(path, no_matter)) {
+        refuse({}, "is a directory", "a CSV file");
+        return;
+    }
+    file_.reset(std::fopen(path.c_str(), "rb"));
+    if (!file_) {
+        refuse({}, std::string("cannot be read: ") + std::strerror(errno), "the path of a CSV file");
+        return;
+    }
+    while (buffer_.size() < 3 && read_block()) {
+    }
+    if (refused_) return;
+    if (buffer_.starts_with("\xFF\xFE") || buffer_.starts_with("\xFE\xFF")) {
+        refuse({1, 1}, "the file is UTF-16", "the same text saved as UTF-8");
+    } else if (buffer_.starts_with("\xEF\xBB\xBF")) {
+        begin_ = 3;
+    }
+}
+
+bool TextLines::read_block() {
+    std::array<char, 65536> block;
+    const std::size_t count = std::fread(block.data(), 1, block.size(), file_.get());
+    if (count == 0 && std::ferror(file_.get()) != 0) {
+        return refuse({}, std::string("cannot be read: ") + std::strerror(errno), "the path of a CSV file");
+    }
+    buffer_.append(block.data(), count);
+    return count > 0;
+}
+
+bool TextLines::refuse(Position at, const std::string& what, const std::string& right) {
+    refused_ = true;
+    diagnostics_->error(path_, at, what, right);
+    return false;
+}
+
+bool TextLines::check_line_end(bool has_end) {
+    const bool crlf = has_end && line_.ends_with('\r');
+    if (crlf) line_.remove_suffix(1);
+    const std::size_t stray = line_.find('\r');
+    if (stray != std::string_view::npos) {
+        return refuse({number_, character_column(line_, stray)}, "a carriage return that does not end a line",
+                      "lines that end with LF, or all with CRLF");
+    }
+    if (!has_end) return true;
+    const LineEnd found = crlf ? LineEnd::crlf : LineEnd::lf;
+    if (line_end_ == LineEnd::unknown) line_end_ = found;
+    if (found != line_end_) {
+        return refuse(
+            {number_, character_column(line_, line_.size())},
+            crlf ? "this line ends with CRLF, those before with LF" : "this line ends with LF, those before with CRLF",
+            "one kind of line end in the whole file");
+    }
+    return true;
+}
+
+bool TextLines::next() {
+    if (refused_) return false;
+    std::size_t end = buffer_.find('\n', begin_);
+    if (end == std::string::npos) {
+        buffer_.erase(0, begin_);
+        begin_ = 0;
+    }
+    while (end == std::string::npos && buffer_.size() <= longest_line) {
+        const std::size_t searched = buffer_.size();
+        if (!read_block()) break;
+        end = buffer_.find('\n', searched);
+    }
+    const bool has_end = end != std::string::npos;
+    if (refused_ || (!has_end && buffer_.empty())) return false;
+    ++number_;
+    line_ = std::string_view(buffer_).substr(begin_, has_end ? end - begin_ : std::string::npos);
+    const std::size_t nul = line_.find('\0');
+    if (nul != std::string_view::npos) {
+        return refuse({number_, character_column(line_, nul)}, "a NUL byte: the file is UTF-16 or no text at all",
+                      "a CSV file in UTF-8");
+    }
+    if (line_.size() > longest_line) {
+        return refuse({number_, 1}, "the line is longer than 1 MiB", "a row of numbers, one line a sample");
+    }
+    begin_ = has_end ? end + 1 : buffer_.size();
+    return check_line_end(has_end);
+}
+
+}  // namespace algest::lab
