@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A plan run sample by sample on the host, with the runtime code and in the order of operations of the generated class:
+// the two agree to the last bit in the same scalar.
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "algest/arithmetic.hpp"
+#include "algest/estimator.hpp"
+#include "algest/parabola_filter.hpp"
+#include "generator/blueprint.hpp"
+#include "generator/plan.hpp"
+#include "generator/tape.hpp"
+
+namespace algest::lab {
+
+/// One estimator instance of a plan in scalar S (float or double). Keeps a reference: the plan must live longer.
+/// Memory: the windows of all signals twice, the sums of the solve, one scalar per operation of the plan's formulas.
+template <class S>
+class HostEstimator {
+public:
+    explicit HostEstimator(const plan::Plan& plan)
+        : plan_(&plan),
+          blueprint_(plan::make_blueprint<S>(plan)),
+          delayed_(plan.delayed()),
+          rings_(size(ring_scalars(blueprint_.signals, ring_length(blueprint_.solve, blueprint_.samples)))),
+          sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
+          published_(size(published_scalars(blueprint_.solve, blueprint_.unknowns))),
+          push_scratch_(size(push_scratch(blueprint_.rows, blueprint_.unknowns))),
+          estimate_scratch_(size(estimate_scratch(blueprint_.rows, blueprint_.unknowns))),
+          previous_(plan.inputs.size()),
+          filters_(plan.inputs.size()),
+          derivatives_(plan.inputs.size()),
+          signal_values_(plan.signals.operations.size()),
+          signals_(plan.signals.results.size()),
+          lumped_(plan.lumped.size()),
+          map_values_(plan.parameter_map.operations.size()),
+          mapped_(plan.parameter_map.results.size()),
+          parameters_(plan.parameters.size()) {
+        reset();
+    }
+
+    /// Forgets everything; the parameters are their initial values again.
+    void reset() {
+        algest::reset(blueprint_.view(), memory());
+        run_ = 0;
+        status_ = Status::filling;
+        condition_ = std::numeric_limits<S>::infinity();
+        for (std::size_t k = 0; k < parameters_.size(); ++k) parameters_[k] = static_cast<S>(plan_->parameters[k].initial);
+    }
+
+    /// Takes one sample (plan.inputs values, in the plan's units) and estimates. Total: every input is answered.
+    /// Cost: that of push and estimate of the runtime, and one operation per entry of the tapes.
+    Status step(const S* inputs) {
+        switch (absorb(inputs)) {
+            case Absorbed::first_of_a_run:
+                status_ = Status::filling;
+                condition_ = std::numeric_limits<S>::infinity();
+                return status_;
+            case Absorbed::nothing: restart(); break;
+            case Absorbed::sample: break;
+        }
+        const Latest<S> latest = algest::estimate(blueprint_.view(), memory(), estimate_scratch_.data(), lumped_.data());
+        if (!latest.current) return status_;
+        status_ = latest.status;
+        condition_ = latest.condition;
+        if (status_ == Status::ok && !map_parameters()) status_ = Status::singular;
+        return status_;
+    }
+
+    Status status() const { return status_; }
+    /// Of the scaled matrix that was solved last; infinity unless the status is ok or singular.
+    S condition() const { return condition_; }
+    /// One per plan.parameters, in its unit: of the last ok step, else the initial values.
+    const std::vector<S>& parameters() const { return parameters_; }
+
+private:
+    enum class Absorbed {
+        nothing,
+        first_of_a_run,
+        sample
+    };
+
+    static std::size_t size(int count) { return static_cast<std::size_t>(count); }
+
+    Memory<S> memory() { return {rings_.data(), sums_.data(), published_.data(), &progress_}; }
+
+    /// True when every input is finite and inside its declared limits.
+    bool acceptable(const S* inputs) const {
+        for (std::size_t i = 0; i < plan_->inputs.size(); ++i) {
+            const plan::Input& input = plan_->inputs[i];
+            if (!all_finite(inputs + i, 1)) return false;
+            if (!within(inputs[i], static_cast<S>(input.min), static_cast<S>(input.max))) return false;
+        }
+        return true;
+    }
+
+    /// Moves the parabola filters by one sample; they then stand at the sample before the newest.
+    void differentiate(const S* inputs) {
+        for (std::size_t i = 0; i < filters_.size(); ++i) {
+            if (!plan_->inputs[i].differentiated) continue;
+            if (run_ == 1) {
+                filters_[i].start(previous_[i], inputs[i]);
+            } else {
+                filters_[i].advance(previous_[i], inputs[i]);
+            }
+            derivatives_[i] = filters_[i].slope * static_cast<S>(plan_->rate);
+        }
+    }
+
+    /// Inputs -> window signals -> windows.
+    Absorbed absorb(const S* inputs) {
+        if (!acceptable(inputs)) return Absorbed::nothing;
+        if (delayed_) {
+            if (run_ == 0) {
+                remember(inputs);
+                run_ = 1;
+                return Absorbed::first_of_a_run;
+            }
+            differentiate(inputs);
+            run_ = 2;
+        }
+        plan::evaluate(plan_->signals, inputs, previous_.data(), derivatives_.data(), signal_values_.data(),
+                       signals_.data());
+        if (!all_finite(signals_.data(), static_cast<int>(signals_.size()))) return Absorbed::nothing;
+        if (delayed_) remember(inputs);
+        algest::push(blueprint_.view(), memory(), static_cast<const S*>(signals_.data()), push_scratch_.data());
+        return Absorbed::sample;
+    }
+
+    void remember(const S* inputs) {
+        for (std::size_t i = 0; i < previous_.size(); ++i) previous_[i] = inputs[i];
+    }
+
+    /// After a refused sample: windows, filters and the memory of the sample before start anew.
+    void restart() {
+        algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
+        run_ = 0;
+    }
+
+    /// Lumped -> parameters; false, and the parameters as they were, if one is not finite.
+    bool map_parameters() {
+        plan::evaluate<S>(plan_->parameter_map, lumped_.data(), nullptr, nullptr, map_values_.data(), mapped_.data());
+        if (!all_finite(mapped_.data(), static_cast<int>(mapped_.size()))) return false;
+        parameters_ = mapped_;
+        return true;
+    }
+
+    const plan::Plan* plan_;
+    plan::BlueprintData<S> blueprint_;
+    bool delayed_;
+    int run_ = 0;  ///< delayed plans: samples accepted since the last restart, at most 2
+    Progress progress_{};
+    std::vector<S> rings_;
+    std::vector<S> sums_;
+    std::vector<S> published_;
+    std::vector<S> push_scratch_;
+    std::vector<S> estimate_scratch_;
+    std::vector<S> previous_;
+    std::vector<ParabolaFilter<S>> filters_;
+    std::vector<S> derivatives_;  ///< per second
+    std::vector<S> signal_values_;
+    std::vector<S> signals_;
+    std::vector<S> lumped_;
+    std::vector<S> map_values_;
+    std::vector<S> mapped_;
+    std::vector<S> parameters_;
+    Status status_ = Status::filling;
+    S condition_ = std::numeric_limits<S>::infinity();
+};
+
+}  // namespace algest::lab

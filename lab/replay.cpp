@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+#include "lab/host_estimator.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+/// Rows of a recording: [begin, end).
+struct RowRange {
+    std::size_t begin;
+    std::size_t end;
+    std::size_t size() const { return end - begin; }
+};
+
+RowRange rows_of(const Recording& recording, const Stretch& stretch) {
+    const std::vector<double>& t = recording.t;
+    const auto begin = std::lower_bound(t.begin(), t.end(), stretch.from);
+    const auto end = std::upper_bound(begin, t.end(), stretch.to);
+    return {static_cast<std::size_t>(begin - t.begin()), static_cast<std::size_t>(end - t.begin())};
+}
+
+bool check_period(const plan::Plan& plan, const Recording& recording, Diagnostics& diagnostics) {
+    const double allowed = period_tolerance * plan.period + recording.period_uncertainty;
+    if (std::abs(recording.period - plan.period) <= allowed) return true;
+    diagnostics.error(
+        recording.file, {1, recording.time_place},
+        fmt::format("the recording is sampled every {:.9g} s, the model `{}` every {:.9g} s", recording.period, plan.name,
+                    plan.period),
+        fmt::format("`period = {:.9g}` under [sampling] of the model, or the recording resampled to the model's period",
+                    recording.period));
+    return false;
+}
+
+bool check_length(const plan::Plan& plan, const Recording& recording, RowRange rows, Diagnostics& diagnostics) {
+    const int needed = samples_to_first_estimate(plan);
+    if (rows.size() >= static_cast<std::size_t>(needed)) return true;
+    const bool whole = rows.size() == recording.samples();
+    diagnostics.error(
+        recording.file, {static_cast<int>(rows.end) + 1, 1},
+        fmt::format("{} samples {}, and the estimator `{}` gives its first estimate after {} ({:.6g} s)", rows.size(),
+                    whole ? "in the recording" : "between --from and --to", plan.name, needed, needed * plan.period),
+        whole ? "a longer recording, or a shorter `window` in the model"
+              : fmt::format("a longer stretch; the recording goes from {:.6g} s to {:.6g} s", recording.t.front(),
+                            recording.t.back()));
+    return false;
+}
+
+/// The samples of every input, in the order of plan.inputs; false if one is not to be had.
+bool read_inputs(const plan::Plan& plan, const Recording& recording, std::vector<std::vector<double>>& inputs,
+                 Diagnostics& diagnostics) {
+    for (const plan::Input& input : plan.inputs) {
+        auto values = signal_values(recording, {input.name, input.column, input.unit}, diagnostics);
+        if (values) inputs.push_back(std::move(*values));
+    }
+    return inputs.size() == plan.inputs.size();
+}
+
+template <class S>
+Replay run(const plan::Plan& plan, const Recording& recording, const std::vector<std::vector<double>>& inputs, RowRange rows,
+           const ProgressReport& progress) {
+    constexpr std::size_t samples_between_reports = 512;
+    HostEstimator<S> estimator(plan);
+    Replay out{{}, {}, {}, {}, plan.parameters.size()};
+    out.t.reserve(rows.size());
+    out.status.reserve(rows.size());
+    out.condition.reserve(rows.size());
+    out.parameters.reserve(rows.size() * out.parameter_count);
+    std::vector<S> sample(inputs.size());
+    for (std::size_t k = rows.begin; k < rows.end; ++k) {
+        for (std::size_t i = 0; i < inputs.size(); ++i) sample[i] = static_cast<S>(inputs[i][k]);
+        estimator.step(sample.data());
+        out.t.push_back(recording.t[k]);
+        out.status.push_back(estimator.status());
+        out.condition.push_back(static_cast<double>(estimator.condition()));
+        for (const S value : estimator.parameters()) out.parameters.push_back(static_cast<double>(value));
+        if (progress && (k - rows.begin) % samples_between_reports == 0) {
+            progress(static_cast<double>(k - rows.begin) / static_cast<double>(rows.size()));
+        }
+    }
+    return out;
+}
+
+std::optional<double> median(std::vector<double> values) {
+    if (values.empty()) return std::nullopt;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) return *middle;
+    return std::midpoint(*std::max_element(values.begin(), middle), *middle);
+}
+
+/// Shortest digits that read back to the same value in S; nothing for what is not finite.
+template <class S>
+void append_number(std::string& out, double value) {
+    if (std::isfinite(value)) fmt::format_to(std::back_inserter(out), "{}", static_cast<S>(value));
+}
+
+/// A field of a header: in quotes where a comma or quote in it asks for them.
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+template <class S>
+std::string csv(const plan::Plan& plan, const Replay& replay) {
+    std::string out = "t [s],status,condition";
+    for (const plan::Parameter& p : plan.parameters) {
+        out += "," + csv_field(p.unit.empty() ? p.name : p.name + " [" + p.unit + "]");
+    }
+    out += "\n";
+    for (std::size_t k = 0; k < replay.samples(); ++k) {
+        append_number<double>(out, replay.t[k]);
+        out += ",";
+        out += name(replay.status[k]);
+        out += ",";
+        append_number<S>(out, replay.condition[k]);
+        for (std::size_t p = 0; p < replay.parameter_count; ++p) {
+            out += ",";
+            append_number<S>(out, replay.parameter(k, p));
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+}  // namespace
+
+int samples_to_first_estimate(const plan::Plan& plan) {
+    const int instants = plan.solve == Solve::robust ? plan.solve_instants - 1 : 0;
+    return plan.samples() + instants + (plan.delayed() ? 1 : 0);
+}
+
+std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording, const Stretch& stretch,
+                             Diagnostics& diagnostics, const ProgressReport& progress) {
+    std::vector<std::vector<double>> inputs;
+    const RowRange rows = rows_of(recording, stretch);
+    const bool signals_fit = read_inputs(plan, recording, inputs, diagnostics);
+    const bool period_fits = check_period(plan, recording, diagnostics);
+    if (!signals_fit || !period_fits || !check_length(plan, recording, rows, diagnostics)) return std::nullopt;
+    return plan.scalar == plan::Scalar::float64 ? run<double>(plan, recording, inputs, rows, progress)
+                                                : run<float>(plan, recording, inputs, rows, progress);
+}
+
+ReplaySummary summarise(const Replay& replay) {
+    ReplaySummary out;
+    for (const Status s : replay.status) ++out.count[static_cast<std::size_t>(s)];
+    std::vector<std::size_t> ok;
+    for (std::size_t k = 0; k < replay.samples(); ++k) {
+        if (replay.status[k] == Status::ok) ok.push_back(k);
+    }
+    std::vector<double> values(ok.size());
+    for (std::size_t p = 0; p < replay.parameter_count; ++p) {
+        if (replay.samples() > 0) out.last.push_back(replay.parameter(replay.samples() - 1, p));
+        std::transform(ok.begin(), ok.end(), values.begin(), [&](std::size_t k) { return replay.parameter(k, p); });
+        out.median.push_back(median(values));
+    }
+    std::transform(ok.begin(), ok.end(), values.begin(), [&](std::size_t k) { return replay.condition[k]; });
+    out.condition_median = median(values);
+    if (!ok.empty()) out.condition_last = replay.condition[ok.back()];
+    return out;
+}
+
+std::string replay_csv(const plan::Plan& plan, const Replay& replay) {
+    return plan.scalar == plan::Scalar::float64 ? csv<double>(plan, replay) : csv<float>(plan, replay);
+}
+
+}  // namespace algest::lab

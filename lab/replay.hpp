@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An estimator run over a recording, sample by sample, as it would have run on the machine.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algest/status.hpp"
+#include "generator/diagnostics.hpp"
+#include "generator/plan.hpp"
+#include "lab/recording.hpp"
+
+namespace algest::lab {
+
+/// Seconds of a recording's own `t`, both ends included.
+struct Stretch {
+    double from = -std::numeric_limits<double>::infinity();
+    double to = std::numeric_limits<double>::infinity();
+};
+
+/// What the estimator said at each sample. Values in float estimators are those floats, exactly.
+struct Replay {
+    std::vector<double> t;  ///< s
+    std::vector<Status> status;
+    std::vector<double> condition;   ///< infinity unless the status is ok or singular
+    std::vector<double> parameters;  ///< samples x parameters
+    std::size_t parameter_count;
+
+    std::size_t samples() const { return t.size(); }
+    double parameter(std::size_t sample, std::size_t p) const { return parameters[sample * parameter_count + p]; }
+};
+
+/// Of a Replay. Empty where no sample is ok.
+struct ReplaySummary {
+    std::array<std::size_t, 4> count{};         ///< samples by Status
+    std::vector<double> last;                   ///< by parameter: held at the end of the stretch
+    std::vector<std::optional<double>> median;  ///< by parameter, over ok samples
+    std::optional<double> condition_median;     ///< over ok samples
+    std::optional<double> condition_last;       ///< of the last ok sample
+};
+
+/// Told now and then how much is done, 0 to 1.
+using ProgressReport = std::function<void(double)>;
+
+/// Difference of the recording's period from the model's that replay accepts, relative. A wrong period falsifies a
+/// derivative of order n by n times that: far less than any estimate here is good for, and far more than decimals do.
+constexpr double period_tolerance = 1e-4;
+
+/// Samples up to the first estimate: the window, the instants of S(t), the sample that primes a delayed model.
+int samples_to_first_estimate(const plan::Plan& plan);
+
+/// Runs the plan, in its own scalar, over the stretch. Nullopt, and errors in `diagnostics`, if a signal's column is missing
+/// or in a unit that does not convert, if the periods differ, or if the stretch is too short for one estimate.
+/// Cost: HostEstimator::step a sample. Memory: (parameters + 3) * 8 bytes a sample.
+std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording, const Stretch& stretch,
+                             Diagnostics& diagnostics, const ProgressReport& progress = {});
+
+/// Cost: samples * parameters.
+ReplaySummary summarise(const Replay& replay);
+
+/// The replay as CSV: `t [s]`, `status`, `condition` (empty while there is none), `NAME [unit]` a
+/// parameter (`NAME` where no unit is declared). Numbers have the shortest digits that read back to the same bits in the
+/// plan's scalar. Cost: samples * parameters.
+std::string replay_csv(const plan::Plan& plan, const Replay& replay);
+
+}  // namespace algest::lab
