@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The subcommands: what each is told, and the exit code that it answers with.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace algest::cli {
+
+struct CheckOptions {
+    std::vector<std::string> models;
+    bool strict = false;
+    bool json = false;
+};
+/// Are the models sound and identifiable? 0: all; 1: one is not identifiable; 2: one is not sound.
+/// JSON: {"models": [{"model", "ok", "warnings"}]}.
+int check(const CheckOptions& options);
+
+struct DeriveOptions {
+    std::string model;
+    std::string format = "text";  ///< text, latex, json
+    bool weights = false;         ///< json: the tables too
+};
+/// Prints the derivation of the estimator.
+int derive(const DeriveOptions& options);
+
+struct GenerateOptions {
+    std::vector<std::string> models;
+    std::string directory = "generated";
+    std::string scalar = "double";  ///< double, float
+    std::string engine;             ///< fir, moments; empty: as the model says
+    bool check = false;             ///< write nothing, show the difference
+    bool json = false;
+};
+/// Writes the estimators, DIR/NAME/..., or compares them with what is there (1: they differ). A model that fails leaves
+/// nothing; the others are written. JSON: {"models": [{"model", "name", "written": [path]}]}, with --check
+/// {"models": [{"model", "name", "differences": [{"path", "difference"}]}]}.
+int generate(const GenerateOptions& options);
+
+struct ReplayOptions {
+    std::string model;
+    std::string recording;
+    std::string output;          ///< CSV of every sample; empty: none
+    std::optional<double> from;  ///< s
+    std::optional<double> to;
+    bool json = false;
+};
+/// Runs the estimator over the recording and prints the parameters.
+int replay(const ReplayOptions& options);
+
+}  // namespace algest::cli

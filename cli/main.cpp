@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// algest: parses the command line, calls a command, prints what went wrong.
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/messages.hpp"
+
+namespace {
+
+using namespace algest::cli;
+
+constexpr const char* json_text = "one JSON object on standard output, for programs";
+
+CLI::App* add_check(CLI::App& app, CheckOptions& options) {
+    CLI::App* command = app.add_subcommand("check", "Are the models sound and identifiable?");
+    command->add_option("MODEL", options.models, "model files")->required();
+    command->add_flag("--strict", options.strict, "a quantity without unit is an error");
+    command->add_flag("--json", options.json, json_text);
+    command->footer(
+        "Exit code: 0 all are, 1 one is not identifiable, 2 one is not sound.\n\n"
+        "Examples:\n"
+        "  algest check models/rl_circuit.toml\n"
+        "  algest check models/*.toml --strict");
+    return command;
+}
+
+CLI::App* add_derive(CLI::App& app, DeriveOptions& options) {
+    CLI::App* command = app.add_subcommand("derive", "Shows how the estimator of a model follows from it");
+    command->add_option("MODEL", options.model, "model file")->required();
+    command->add_option("--format", options.format, "text, latex or json")
+        ->check(CLI::IsMember({"text", "latex", "json"}))
+        ->capture_default_str();
+    command->add_flag_callback(
+        "--json", [&options] { options.format = "json"; }, "the same as --format json");
+    command->add_flag("--weights", options.weights, "json: the weights of every kernel too");
+    command->footer(
+        "Examples:\n"
+        "  algest derive models/rl_circuit.toml\n"
+        "  algest derive models/dc_motor.toml --format latex > dc_motor.tex\n"
+        "  algest derive models/dc_motor.toml --format json --weights");
+    return command;
+}
+
+CLI::App* add_generate(CLI::App& app, GenerateOptions& options) {
+    CLI::App* command = app.add_subcommand("generate", "Writes the estimators of models as C++, or checks what is there");
+    command->add_option("MODEL", options.models, "model files")->required();
+    command->add_option("-o,--output", options.directory, "folder to write into")->type_name("DIR")->capture_default_str();
+    command->add_option("--scalar", options.scalar, "double or float")
+        ->check(CLI::IsMember({"double", "float"}))
+        ->capture_default_str();
+    command->add_option("--engine", options.engine, "fir or moments; default: as the model says")
+        ->check(CLI::IsMember({"fir", "moments"}));
+    command->add_flag("--check", options.check, "write nothing; print the difference from what is there");
+    command->add_flag("--json", options.json, json_text);
+    command->footer(
+        "Exit code: 0 done, 1 --check found a difference, 2 a model or a file is at fault.\n\n"
+        "Examples:\n"
+        "  algest generate models/rl_circuit.toml\n"
+        "  algest generate models/dc_motor.toml -o firmware/estimators --scalar float\n"
+        "  algest generate models/*.toml --check");
+    return command;
+}
+
+CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
+    CLI::App* command = app.add_subcommand("replay", "Runs the estimator of a model over a recording");
+    command->add_option("MODEL", options.model, "model file")->required();
+    command->add_option("RECORDING", options.recording, "CSV file with a header `name [unit]` and a column `t [s]`")
+        ->required();
+    command->add_option("-o,--output", options.output, "write status, condition and parameters of every sample")
+        ->type_name("FILE.csv");
+    command->add_option("--from", options.from, "start at this instant of the recording")->type_name("SECONDS");
+    command->add_option("--to", options.to, "end at this instant")->type_name("SECONDS");
+    command->add_flag("--json", options.json, json_text);
+    command->footer(
+        "Examples:\n"
+        "  algest replay models/positioning_axis.toml emps.csv\n"
+        "  algest replay models/positioning_axis.toml emps.csv --from 2 --to 10 -o estimates.csv\n"
+        "  algest replay models/pendulum.toml swing.csv --json");
+    return command;
+}
+
+/// What goes wrong outside any command: one line for people, the usual object for programs.
+int complain(const std::string& what, const std::string& right, bool json) {
+    algest::Diagnostics diagnostics;
+    diagnostics.error("algest", {}, what, right);
+    return fail(diagnostics, json);
+}
+
+int parse_and_run(int argc, char** argv, bool json) {
+    CLI::App app{"From a model file to an on-line parameter estimator for a controller.", "algest"};
+    app.set_version_flag("--version", "algest " ALGEST_VERSION, "Print the version and exit");
+    app.require_subcommand(1);
+    app.footer("algest COMMAND --help says more, with examples.");
+    CheckOptions check_options;
+    DeriveOptions derive_options;
+    GenerateOptions generate_options;
+    ReplayOptions replay_options;
+    const CLI::App* check_command = add_check(app, check_options);
+    const CLI::App* derive_command = add_derive(app, derive_options);
+    const CLI::App* generate_command = add_generate(app, generate_options);
+    const CLI::App* replay_command = add_replay(app, replay_options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help_or_version) {
+        return app.exit(help_or_version);
+    } catch (const CLI::ParseError& error) {
+        return complain(error.what(), "`algest --help` and `algest COMMAND --help` list what there is", json);
+    }
+    if (check_command->parsed()) return check(check_options);
+    if (derive_command->parsed()) return derive(derive_options);
+    if (generate_command->parsed()) return generate(generate_options);
+    if (replay_command->parsed()) return replay(replay_options);
+    return exit_bad_input;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    bool json = false;
+    for (int k = 1; k < argc; ++k) json = json || std::string(argv[k]) == "--json";
+    int code = exit_bad_input;
+    try {
+        code = parse_and_run(argc, argv, json);
+    } catch (const std::bad_alloc&) {
+        complain("out of memory", "a smaller model or recording", json);
+    } catch (const std::exception& error) {
+        complain(std::string("a fault of algest itself: ") + error.what(), "please report it with the files it was given",
+                 json);
+    } catch (...) {
+        complain("a fault of algest itself", "please report it with the files it was given", json);
+    }
+    if (output_failed()) {
+        note("algest: error: standard output could not be written");
+        return exit_bad_input;
+    }
+    return code;
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// algest replay: the estimator of a model over a recording.
+#include "lab/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "cli/messages.hpp"
+#include "cli/progress.hpp"
+#include "generator/generate.hpp"
+#include "lab/recording.hpp"
+#include "lab/write_file.hpp"
+
+namespace algest::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number_or_null(std::optional<double> value) {
+    return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json summary_json(const ReplayOptions& options, const plan::Plan& plan, const lab::ReplaySummary& summary,
+                          std::size_t samples) {
+    ordered_json parameters = ordered_json::array();
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
+        parameters.push_back({{"name", plan.parameters[p].name},
+                              {"unit", plan.parameters[p].unit},
+                              {"last", number_or_null(summary.last[p])},
+                              {"median", number_or_null(summary.median[p])},
+                              {"sd", nullptr}});
+    }
+    ordered_json status = ordered_json::object();
+    for (std::size_t s = 0; s < summary.count.size(); ++s) status[name(static_cast<Status>(s))] = summary.count[s];
+    return {{"model", options.model},
+            {"recording", options.recording},
+            {"samples", samples},
+            {"period_s", plan.period},
+            {"parameters", std::move(parameters)},
+            {"status", std::move(status)},
+            {"condition",
+             {{"median", number_or_null(summary.condition_median)}, {"last", number_or_null(summary.condition_last)}}}};
+}
+
+std::string number_text(std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : "-"; }
+
+std::string summary_text(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary) {
+    std::size_t width = std::string("parameter").size();
+    for (const plan::Parameter& p : plan.parameters) width = std::max(width, p.name.size());
+    std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {}\n", "parameter", width, "last", "median", "unit");
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
+        out += fmt::format("{:<{}}  {:>12}  {:>12}  {}\n", plan.parameters[p].name, width, number_text(summary.last[p]),
+                           number_text(summary.median[p]), plan.parameters[p].unit);
+    }
+    out += fmt::format("\n{} samples, {:.6g} s to {:.6g} s:", replay.samples(), replay.t.front(), replay.t.back());
+    for (std::size_t s = 0; s < summary.count.size(); ++s) {
+        out += fmt::format("{} {} {}", s == 0 ? "" : ",", name(static_cast<Status>(s)), summary.count[s]);
+    }
+    out += fmt::format("\ncondition: median {}, last {}\n", number_text(summary.condition_median),
+                       number_text(summary.condition_last));
+    return out;
+}
+
+/// The CSV must not take the place of what it was made from.
+bool output_is_input(const ReplayOptions& options, Diagnostics& diagnostics) {
+    for (const std::string& input : {options.model, options.recording}) {
+        std::error_code no_matter;
+        if (options.output.empty() || !std::filesystem::is_regular_file(options.output, no_matter) ||
+            !std::filesystem::equivalent(options.output, input, no_matter)) {
+            continue;
+        }
+        diagnostics.error(options.output, {}, "-o names the file that is read", "another file");
+        return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+int replay(const ReplayOptions& options) {
+    Diagnostics diagnostics;
+    if (output_is_input(options, diagnostics)) return fail(diagnostics, options.json);
+    lab::Stretch stretch;
+    stretch.from = options.from.value_or(stretch.from);
+    stretch.to = options.to.value_or(stretch.to);
+    if (!(stretch.from < stretch.to)) {
+        diagnostics.error("algest replay", {}, fmt::format("--from {} is not before --to {}", stretch.from, stretch.to),
+                          "two instants of the recording's `t`, in s");
+        return fail(diagnostics, options.json);
+    }
+
+    const auto plan = generator::plan_from_model(options.model, {}, diagnostics);
+    const auto recording = lab::read_recording(options.recording, diagnostics);
+    if (!plan || !recording) return fail(diagnostics, options.json);
+    for (const std::string& text : plan->notes) diagnostics.note(options.model, text);
+
+    const auto replay = [&] {
+        ProgressLine progress("replay");
+        return lab::replay(*plan, *recording, stretch, diagnostics, [&](double share) { progress.show(share); });
+    }();
+    if (!replay) return fail(diagnostics, options.json);
+    if (!options.output.empty() && !lab::write_file(options.output, lab::replay_csv(*plan, *replay), diagnostics)) {
+        return fail(diagnostics, options.json);
+    }
+    print_diagnostics(diagnostics);
+    if (!options.output.empty()) note("wrote " + options.output);
+
+    const lab::ReplaySummary summary = lab::summarise(*replay);
+    if (options.json) {
+        print_json(summary_json(options, *plan, summary, replay->samples()));
+    } else {
+        print(summary_text(*plan, *replay, summary));
+    }
+    return exit_done;
+}
+
+}  // namespace algest::cli
