@@ -50,23 +50,40 @@ public:
         for (std::size_t k = 0; k < parameters_.size(); ++k) parameters_[k] = static_cast<S>(plan_->parameters[k].initial);
     }
 
-    /// Takes one sample (plan.inputs values, in the plan's units) and estimates. Total: every input is answered.
-    /// Cost: that of push and estimate of the runtime, and one operation per entry of the tapes.
-    Status step(const S* inputs) {
-        switch (absorb(inputs)) {
-            case Absorbed::first_of_a_run:
-                status_ = Status::filling;
-                condition_ = std::numeric_limits<S>::infinity();
-                return status_;
-            case Absorbed::nothing: restart(); break;
-            case Absorbed::sample: break;
+    /// Takes one sample: plan.inputs values, in the plan's units. Total: every input is answered.
+    /// Cost: that of the runtime's push, and one operation per entry of the signals' tape.
+    void push(const S* inputs) {
+        if (!acceptable(inputs)) return refuse();
+        if (delayed_) {
+            if (run_ == 0) {
+                remember(inputs);
+                run_ = 1;
+                return algest::prime(memory());
+            }
+            differentiate(inputs);
+            run_ = 2;
         }
+        plan::evaluate(plan_->signals, inputs, previous_.data(), derivatives_.data(), signal_values_.data(),
+                       signals_.data());
+        if (!all_finite(signals_.data(), static_cast<int>(signals_.size()))) return refuse();
+        if (delayed_) remember(inputs);
+        algest::push(blueprint_.view(), memory(), static_cast<const S*>(signals_.data()), push_scratch_.data());
+    }
+
+    /// Solves with the windows as they are now. Cost: that of the runtime's estimate, and the parameter map.
+    Status estimate() {
         const Latest<S> latest = algest::estimate(blueprint_.view(), memory(), estimate_scratch_.data(), lumped_.data());
         if (!latest.current) return status_;
         status_ = latest.status;
         condition_ = latest.condition;
         if (status_ == Status::ok && !map_parameters()) status_ = Status::singular;
         return status_;
+    }
+
+    /// push, then estimate.
+    Status step(const S* inputs) {
+        push(inputs);
+        return estimate();
     }
 
     Status status() const { return status_; }
@@ -109,32 +126,12 @@ private:
         }
     }
 
-    /// Inputs -> window signals -> windows.
-    Absorbed absorb(const S* inputs) {
-        if (!acceptable(inputs)) return Absorbed::nothing;
-        if (delayed_) {
-            if (run_ == 0) {
-                remember(inputs);
-                run_ = 1;
-                return Absorbed::first_of_a_run;
-            }
-            differentiate(inputs);
-            run_ = 2;
-        }
-        plan::evaluate(plan_->signals, inputs, previous_.data(), derivatives_.data(), signal_values_.data(),
-                       signals_.data());
-        if (!all_finite(signals_.data(), static_cast<int>(signals_.size()))) return Absorbed::nothing;
-        if (delayed_) remember(inputs);
-        algest::push(blueprint_.view(), memory(), static_cast<const S*>(signals_.data()), push_scratch_.data());
-        return Absorbed::sample;
-    }
-
     void remember(const S* inputs) {
         for (std::size_t i = 0; i < previous_.size(); ++i) previous_[i] = inputs[i];
     }
 
-    /// After a refused sample: windows, filters and the memory of the sample before start anew.
-    void restart() {
+    /// Windows, filters and the memory of the sample before start anew.
+    void refuse() {
         algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
         run_ = 0;
     }
