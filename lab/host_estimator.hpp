@@ -93,12 +93,6 @@ public:
     const std::vector<S>& parameters() const { return parameters_; }
 
 private:
-    enum class Absorbed {
-        nothing,
-        first_of_a_run,
-        sample
-    };
-
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
     Memory<S> memory() { return {rings_.data(), sums_.data(), published_.data(), &progress_}; }
