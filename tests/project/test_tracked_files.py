@@ -8,8 +8,8 @@ from environment import SOURCE, run, skip
 if subprocess.run(["git", "-C", SOURCE, "rev-parse"], capture_output=True).returncode != 0:
     skip("not a git checkout")
 
-HOST, FREE = "GPL-3.0-or-later", "MIT-0"
-LICENCE = {"runtime": FREE, "templates": FREE, "generator": HOST, "lab": HOST, "cli": HOST}
+HOST, RUNTIME, EMITTED = "GPL-3.0-or-later", "MIT-0", "0BSD"
+LICENCE = {"generator": HOST, "lab": HOST, "cli": HOST, "runtime": RUNTIME, "templates": EMITTED, "generated": EMITTED}
 WITHOUT_COMMENTS = (".csv", ".json", ".md", ".svg", ".png", "LICENSE")
 
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT-0
-// What a bare-metal image needs besides the estimator: vectors, the start, and the memory functions that a compiler may call
-// even in freestanding code. There is no C library behind it; libm asks for __errno.
+// What a bare-metal image needs besides the estimator: vectors, the start (memory, constructors), and the memory functions
+// that a compiler may call even in freestanding code. There is no C library behind it; libm asks for __errno.
 #include <cstddef>
 #include <cstdint>
 
 extern "C" {
 extern std::uint32_t data_start[], data_end[], data_load[], bss_start[], bss_end[], stack_top[];
+extern void (*const init_start[])();
+extern void (*const init_end[])();
 int main();
 
 void* memcpy(void* to, const void* from, std::size_t size) {
@@ -28,9 +30,11 @@ int* __errno() {
 
 [[noreturn]] void reset_handler() {
     *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88) |= 0xFU << 20;  // switch the floating-point unit on
+    asm volatile("dsb\n isb" ::: "memory");
     std::uint32_t* from = data_load;
     for (std::uint32_t* to = data_start; to != data_end; ++to) *to = *from++;
     for (std::uint32_t* to = bss_start; to != bss_end; ++to) *to = 0;
+    for (auto construct = init_start; construct != init_end; ++construct) (*construct)();
     main();
     for (;;) {
     }
