@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The derivation of a plan: for the person who reviews a diff (Markdown), for a paper (LaTeX), for a program (JSON).
+#include <nlohmann/json.hpp>
+
+#include "generator/exact.hpp"
+#include "generator/formula.hpp"
+#include "generator/generate.hpp"
+#include "generator/kernel.hpp"
+#include "generator/polynomial.hpp"
+#include "generator/render.hpp"
+
+#ifndef ALGEST_VERSION
+#define ALGEST_VERSION "0"
+#endif
+
+namespace algest::generator {
+
+namespace {
+
+using exact::Rational;
+using plan::Plan;
+
+kernel::Coefficients coefficients(const std::vector<std::string>& texts) {
+    kernel::Coefficients out;
+    for (const std::string& t : texts) out.push_back(*exact::parse(t));
+    return out;
+}
+
+/// Lowest power first in the list; the printed polynomial has the highest first, as Polynomial orders it.
+Polynomial in_sigma(const std::vector<std::string>& kernel) {
+    Polynomial out;
+    for (std::size_t k = 0; k < kernel.size(); ++k) {
+        if (kernel[k] != "0") out.emplace(Exponents{static_cast<int>(k)}, *exact::parse(kernel[k]));
+    }
+    return out;
+}
+
+/// Joins signed products: (1, "a") and (-2, "b") give "a - 2 b".
+class SignedSum {
+public:
+    SignedSum(std::string times, bool latex) : times_(std::move(times)), latex_(latex) {}
+    void add(const Rational& coefficient, const std::string& factor) {
+        const bool negative = cln::minusp(coefficient);
+        const Rational size = cln::abs(coefficient);
+        std::string number = exact::text(size);
+        if (latex_ && !exact::is_integer(size)) {
+            number = "\\tfrac{" + exact::text(cln::numerator(size)) + "}{" + exact::text(cln::denominator(size)) + "}";
+        }
+        const std::string term = factor.empty() ? number : size == 1 ? factor : number + times_ + factor;
+        out_ += out_.empty() ? (negative ? "-" + term : term) : (negative ? " - " : " + ") + term;
+    }
+    std::string text() const { return out_.empty() ? "0" : out_; }
+
+private:
+    std::string times_;
+    bool latex_;
+    std::string out_;
+};
+
+std::string power_text(const std::string& base, int power) { return power == 0 ? "" : power == 1 ? base : base + "^" + std::to_string(power); }
+
+std::string expansion(const std::vector<plan::LeibnizTerm>& terms) {
+    SignedSum sum(" ", false);
+    for (const plan::LeibnizTerm& t : terms) {
+        const std::string s = power_text("s", t.power);
+        const std::string y = t.derivative_in_s == 0 ? "Y" : "Y^(" + std::to_string(t.derivative_in_s) + ")";
+        sum.add(*exact::parse(t.coefficient), s.empty() ? y : s + " " + y);
+    }
+    return sum.text();
+}
+
+std::string expansion_tex(const std::vector<plan::LeibnizTerm>& terms) {
+    SignedSum sum("\\,", true);
+    for (const plan::LeibnizTerm& t : terms) {
+        const std::string s = t.power == 0 ? "" : t.power == 1 ? "s\\," : "s^{" + std::to_string(t.power) + "}\\,";
+        sum.add(*exact::parse(t.coefficient), s + (t.derivative_in_s == 0 ? "Y" : "Y^{(" + std::to_string(t.derivative_in_s) + ")}"));
+    }
+    return sum.text();
+}
+
+/// The kernel in time: sum of c (t-tau)^gamma (-tau)^j / gamma! after division by s^(kappa+n+p).
+std::string time_form(const Plan& plan, const plan::Table& table) {
+    for (const plan::Equation& e : plan.equations) {
+        if (e.n != table.n || e.kappa != table.kappa) continue;
+        SignedSum sum(" ", false);
+        for (const plan::LeibnizTerm& t : e.leibniz[static_cast<std::size_t>(table.derivative)]) {
+            const int gamma = table.kappa + table.n + table.p - t.power - 1;
+            const std::string first = power_text("(t-tau)", gamma);
+            const std::string second = power_text("(-tau)", t.derivative_in_s);
+            std::string factor = first + (first.empty() || second.empty() ? "" : " ") + second;
+            if (gamma > 1) factor += "/" + std::to_string(gamma) + "!";
+            sum.add(*exact::parse(t.coefficient), factor);
+        }
+        return "integral over [0,t] of f(tau) times  " + sum.text();
+    }
+    return "";
+}
+
+std::string solve_text(const Plan& plan) {
+    switch (plan.solve) {
+        case Solve::square: return plan.rows.size() == plan.lumped.size() ? "square, the rows of one instant" : "least squares of the rows of one instant";
+        case Solve::robust: return "robust, S(t) over " + std::to_string(plan.solve_instants) + " instants";
+        case Solve::least_squares: return plan.keep == 1.0 ? "least squares over all rows since reset" : "least squares over all rows since reset, with forgetting";
+    }
+    return "?";
+}
+
+std::string annihilator_text(const plan::Equation& e) {
+    const std::string order = std::to_string(e.n + e.kappa);
+    const std::string s = e.kappa == 0 ? "" : e.kappa == 1 ? " s" : " s^" + std::to_string(e.kappa);
+    return "Pi = d^" + order + "/ds^" + order + s;
+}
+
+std::string window_text(const Plan& plan) { return exact::text(*exact::parse(plan.period_text) * plan.intervals); }
+
+Data common(const Plan& plan) {
+    Data d;
+    d.set("version", std::string(ALGEST_VERSION));
+    d.set("name", plan.name);
+    d.set("window", window_text(plan));
+    return d;
+}
+
+std::string signal_of(const Plan& plan, const plan::RowTerm& term) { return term.signal < 0 ? "1" : plan.window_signals[static_cast<std::size_t>(term.signal)].text; }
+
+Data equations_data(const Plan& plan) {
+    DataList equations;
+    for (const plan::Equation& e : plan.equations) {
+        Data q;
+        q.set("equation_name", e.name);
+        q.set("ode", e.ode);
+        const auto sides = formula::parse_equation(e.ode, [](int, const std::string&, const std::string&) {});
+        q.set("ode_tex", sides ? formula::latex(sides->left) + " = " + formula::latex(sides->right) : e.ode);
+        q.set("n", std::to_string(e.n));
+        q.set("kappa", std::to_string(e.kappa));
+        q.set("order", std::to_string(e.n + e.kappa));
+        q.set("way", e.divided ? "Divided by the leading coefficient " + e.leading + "." : std::string("Used as written: it is linear in the unknowns."));
+        q.set("delayed", e.delayed);
+        q.set("annihilator", annihilator_text(e));
+        q.set("perturbation", e.kappa == 0 ? std::string("") : e.kappa == 1 ? std::string(" and a constant perturbation") : " and a polynomial perturbation of degree " + std::to_string(e.kappa - 1));
+        DataList operators;
+        for (const plan::OperatorTerm& t : e.operators) {
+            Data o;
+            o.set("coefficient", t.parameter);
+            o.set("signal", t.signal);
+            o.set("derivative", std::to_string(t.derivative));
+            operators.push_back(o);
+        }
+        q.set("operators", listed(operators));
+        DataList leibniz;
+        for (std::size_t i = 0; i < e.leibniz.size(); ++i) {
+            Data l;
+            l.set("i", std::to_string(i));
+            l.set("expansion", expansion(e.leibniz[i]));
+            l.set("expansion_tex", expansion_tex(e.leibniz[i]));
+            leibniz.push_back(l);
+        }
+        q.set("leibniz", listed(leibniz));
+        equations.push_back(q);
+    }
+    return listed(equations);
+}
+
+/// LaTeX of a text in our own canonical spelling, e.g. "R/L" or "Gamma2/Gamma1".
+std::string tex_of(const std::string& text) {
+    const auto f = formula::parse(text, [](int, const std::string&, const std::string&) {});
+    return f ? formula::latex(*f) : text;
+}
+
+Data unknowns_data(const Plan& plan) {
+    DataList unknowns;
+    for (const plan::Lumped& u : plan.lumped) {
+        Data d;
+        d.set("unknown", u.name);
+        d.set("meaning", u.meaning);
+        d.set("unknown_tex", formula::latex_name(u.name));
+        d.set("meaning_tex", tex_of(u.meaning));
+        unknowns.push_back(d);
+    }
+    return listed(unknowns);
+}
+
+Data parameters_data(const Plan& plan) {
+    DataList parameters;
+    for (const plan::Parameter& p : plan.parameters) {
+        Data d;
+        d.set("parameter", p.name);
+        d.set("unit", p.unit.empty() ? std::string("not declared") : p.unit);
+        d.set("from", p.from);
+        d.set("parameter_tex", formula::latex_name(p.name));
+        d.set("from_tex", tex_of(p.from));
+        parameters.push_back(d);
+    }
+    return listed(parameters);
+}
+
+Data kernels_data(const Plan& plan) {
+    DataList kernels;
+    for (const plan::Table& t : plan.tables) {
+        Data d;
+        d.set("kernel_name", t.name);
+        d.set("time_form", time_form(plan, t));
+        d.set("polynomial", text(in_sigma(t.kernel), {"sigma"}));
+        d.set("polynomial_tex", latex(in_sigma(t.kernel), {"sigma"}));
+        d.set("derivative", std::to_string(t.derivative));
+        d.set("p", std::to_string(t.p));
+        d.set("kernel_n", std::to_string(t.n));
+        d.set("kernel_kappa", std::to_string(t.kappa));
+        kernels.push_back(d);
+    }
+    return listed(kernels);
+}
+
+}  // namespace
+
+std::string derivation_text(const Plan& plan) {
+    Data d = common(plan);
+    d.set("summary", plan.summary);
+    d.set("has_summary", !plan.summary.empty());
+    d.set("source", plan.source);
+    d.set("has_source", !plan.source.empty());
+    d.set("period", plan.period_text);
+    d.set("intervals", std::to_string(plan.intervals));
+    d.set("samples", std::to_string(plan.samples()));
+    d.set("solve_text", solve_text(plan));
+    DataList notes;
+    for (const std::string& n : plan.notes) {
+        Data note;
+        note.set("note", n);
+        notes.push_back(note);
+    }
+    d.set("notes", listed(notes));
+    d.set("equations", equations_data(plan));
+    d.set("unknowns", unknowns_data(plan));
+    d.set("parameters", parameters_data(plan));
+    DataList rows;
+    for (std::size_t r = 0; r < plan.rows.size(); ++r) {
+        const plan::Row& row = plan.rows[r];
+        Data q;
+        q.set("row", std::to_string(r + 1));
+        q.set("row_equation", plan.equations[static_cast<std::size_t>(row.equation)].name);
+        q.set("p", std::to_string(row.p));
+        DataList terms;
+        for (const plan::RowTerm& t : row.terms) {
+            Data w;
+            w.set("side", t.lumped < 0 ? std::string("known") : plan.lumped[static_cast<std::size_t>(t.lumped)].name);
+            w.set("c", t.coefficient);
+            w.set("f", signal_of(plan, t));
+            w.set("order", std::to_string(t.derivative));
+            w.set("k", t.table < 0 ? std::string("constant") : plan.tables[static_cast<std::size_t>(t.table)].name);
+            terms.push_back(w);
+        }
+        q.set("terms", listed(terms));
+        rows.push_back(q);
+    }
+    d.set("rows", listed(rows));
+    d.set("kernels", kernels_data(plan));
+    return render("report/derivation.md.mustache", d);
+}
+
+std::string derivation_latex(const Plan& plan) {
+    Data d = common(plan);
+    std::string name_tex;
+    for (const char c : plan.name) name_tex += c == '_' ? std::string("\\_") : std::string(1, c);
+    d.set("name_tex", name_tex);
+    d.set("equations", equations_data(plan));
+    d.set("unknowns", unknowns_data(plan));
+    d.set("parameters", parameters_data(plan));
+    DataList rows;
+    for (const plan::Row& row : plan.rows) {
+        SignedSum unknown_side("\\,", true);
+        SignedSum known_side("\\,", true);
+        for (const plan::RowTerm& t : row.terms) {
+            const std::string functional = "F_{" + std::to_string(t.derivative) + "," + std::to_string(row.p) + "}\\left[" + tex_of(signal_of(plan, t)) + "\\right]";
+            if (t.lumped < 0) known_side.add(*exact::parse(t.coefficient), functional);
+            else unknown_side.add(*exact::parse(t.coefficient), formula::latex_name(plan.lumped[static_cast<std::size_t>(t.lumped)].name) + "\\," + functional);
+        }
+        Data q;
+        q.set("unknown_side", unknown_side.text());
+        q.set("known_side", known_side.text());
+        rows.push_back(q);
+    }
+    d.set("rows", listed(rows));
+    d.set("kernels", kernels_data(plan));
+    return render("report/derivation.tex.mustache", d);
+}
+
+std::string derivation_json(const Plan& plan, bool weights) {
+    using Json = nlohmann::ordered_json;
+    Json out;
+    out["name"] = plan.name;
+    out["window_s"] = exact::nearest(*exact::parse(window_text(plan)), plan::Scalar::float64);
+    out["samples"] = plan.samples();
+    out["equations"] = Json::array();
+    for (std::size_t e = 0; e < plan.equations.size(); ++e) {
+        const plan::Equation& equation = plan.equations[e];
+        Json q;
+        q["name"] = equation.name;
+        q["n"] = equation.n;
+        q["kappa"] = equation.kappa;
+        q["divided_by"] = equation.divided ? Json(equation.leading) : Json(nullptr);
+        q["rows"] = Json::array();
+        for (const plan::Row& row : plan.rows) {
+            if (row.equation != static_cast<int>(e)) continue;
+            Json r;
+            r["p"] = row.p;
+            r["terms"] = Json::array();
+            for (const plan::RowTerm& t : row.terms) {
+                Json term;
+                term["parameter"] = t.lumped < 0 ? Json(nullptr) : Json(plan.lumped[static_cast<std::size_t>(t.lumped)].name);
+                term["signal"] = signal_of(plan, t);
+                term["derivative"] = t.derivative;
+                term["kernel"] = t.kernel;
+                if (weights) {
+                    const plan::Hold hold = t.signal < 0 ? plan::Hold::linear : plan.window_signals[static_cast<std::size_t>(t.signal)].hold;
+                    Json list = Json::array();
+                    for (const double w : kernel::weights(coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar)) list.push_back(exact::hexadecimal(w));
+                    term["weights"] = std::move(list);
+                }
+                r["terms"].push_back(std::move(term));
+            }
+            q["rows"].push_back(std::move(r));
+        }
+        out["equations"].push_back(std::move(q));
+    }
+    out["unknowns"] = Json::array();
+    for (const plan::Lumped& u : plan.lumped) out["unknowns"].push_back({{"name", u.name}, {"meaning", u.meaning}});
+    out["parameters"] = Json::array();
+    for (const plan::Parameter& p : plan.parameters) out["parameters"].push_back({{"name", p.name}, {"unit", p.unit}, {"from", p.from}});
+    return out.dump(2) + "\n";
+}
+
+}  // namespace algest::generator

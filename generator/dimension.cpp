@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/dimension.hpp"
+
+#include <cmath>
+
+#include "generator/model.hpp"
+
+namespace algest::model {
+
+namespace {
+
+using formula::Formula;
+using formula::Kind;
+using units::Unit;
+
+struct Walk {
+    const Model& model;
+    const Equation& equation;
+    Diagnostics* diagnostics;   // null: silent
+
+    void complain(const Formula& f, const std::string& what, const std::string& right) const {
+        if (diagnostics != nullptr) diagnostics->error(equation.file, equation.place(f->offset), what, right);
+    }
+
+    static Unit declared(const std::string& unit) {
+        if (unit.empty()) return {};
+        return Unit::parse(unit).value_or(Unit());
+    }
+
+    /// The unit of a sum of two; complains where they do not fit.
+    Unit alike(const Unit& a, const Unit& b, const Formula& left, const Formula& right, const Formula& at) const {
+        if (!a.known()) return b;
+        if (!b.known()) return a;
+        const std::string sides = "'" + formula::text(left) + "' [" + a.text() + "] and '" + formula::text(right) + "' [" + b.text() + "]";
+        if (!a.same_dimension(b)) {
+            complain(at, sides + " differ in dimension", "check the units, or declare a constant with the missing one");
+            return {};
+        }
+        const double factor = b.factor_to(a);
+        if (std::abs(factor - 1.0) > 1e-9) {
+            complain(at, sides + " differ in scale", "declare the signals in units that fit; a recording is converted");
+        }
+        return a;
+    }
+
+    void expect_number(const Unit& unit, const Formula& f, const std::string& function) const {
+        if (!unit.known()) return;
+        const Unit one = Unit::dimensionless();
+        if (!unit.same_dimension(one) || std::abs(unit.factor_to(one) - 1.0) > 1e-9) {
+            complain(f, "the argument of " + function + " has the unit [" + unit.text() + "]", "divide it by a constant of that unit");
+        }
+    }
+
+    Unit power(const Formula& f) const {
+        const Unit base = of(f->arguments[0]);
+        const Formula& e = f->arguments[1];
+        std::optional<exact::Rational> exponent;
+        const Formula& inner = e->kind == Kind::negate ? e->arguments[0] : e;
+        if (inner->kind == Kind::number) exponent = inner->value;
+        if (inner->kind == Kind::name && model.constant(inner->name) != nullptr) exponent = model.constant(inner->name)->value;
+        if (inner->kind == Kind::divide && inner->arguments[0]->kind == Kind::number && inner->arguments[1]->kind == Kind::number &&
+            !cln::zerop(inner->arguments[1]->value)) {
+            exponent = inner->arguments[0]->value / inner->arguments[1]->value;
+        }
+        if (!exponent) {
+            expect_number(of(e), e, "an exponent");
+            expect_number(base, f->arguments[0], "a power with a variable exponent");
+            return {};
+        }
+        if (e->kind == Kind::negate) exponent = -*exponent;
+        if (cln::abs(*exponent) > formula::largest_exponent || cln::denominator(*exponent) > formula::largest_exponent) return {};
+        return base.root(cln::cl_I_to_int(cln::denominator(*exponent))).power(cln::cl_I_to_int(cln::numerator(*exponent)));
+    }
+
+    Unit call(const Formula& f) const {
+        const Formula& x = f->arguments[0];
+        if (f->name == "der") {
+            const int order = f->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(f->arguments[1]->value)) : 1;
+            return of(x).over(Unit::parse("s")->power(order));
+        }
+        const Unit unit = of(x);
+        if (f->name == "sqrt") return unit.root(2);
+        if (f->name == "abs") return unit;
+        if (f->name == "sgn") return Unit::dimensionless();
+        if (formula::is_function_of_two(f->name)) return alike(unit, of(f->arguments[1]), x, f->arguments[1], f);
+        expect_number(unit, x, f->name);
+        return Unit::dimensionless();
+    }
+
+    Unit of(const Formula& f) const {
+        switch (f->kind) {
+            case Kind::number: return cln::zerop(f->value) ? Unit() : Unit::dimensionless();
+            case Kind::name:
+                if (const Signal* s = model.signal(f->name)) return declared(s->unit);
+                if (const Constant* c = model.constant(f->name)) return declared(c->unit);
+                if (const Parameter* p = model.parameter(f->name)) return declared(p->unit);
+                return {};
+            case Kind::negate: return of(f->arguments[0]);
+            case Kind::add:
+            case Kind::subtract: {
+                const Unit left = of(f->arguments[0]);
+                return alike(left, of(f->arguments[1]), f->arguments[0], f->arguments[1], f->arguments[1]);
+            }
+            case Kind::multiply: {
+                const Unit left = of(f->arguments[0]);
+                return left.times(of(f->arguments[1]));
+            }
+            case Kind::divide: {
+                const Unit left = of(f->arguments[0]);
+                return left.over(of(f->arguments[1]));
+            }
+            case Kind::power: return power(f);
+            case Kind::call: return call(f);
+        }
+        return {};
+    }
+};
+
+}  // namespace
+
+void check_dimension(const Model& model, const Equation& equation, Diagnostics& diagnostics) {
+    const Walk walk{model, equation, &diagnostics};
+    const Unit left = walk.of(equation.sides.left);
+    const Unit right = walk.of(equation.sides.right);
+    (void)walk.alike(left, right, equation.sides.left, equation.sides.right, equation.sides.right);
+}
+
+units::Unit unit_of_equation(const Model& model, const Equation& equation) {
+    const Walk walk{model, equation, nullptr};
+    const Unit left = walk.of(equation.sides.left);
+    return left.known() ? left : walk.of(equation.sides.right);
+}
+
+}  // namespace algest::model

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Units of formulas: every sum adds like to like, every function gets a pure number.
+#pragma once
+#include "generator/diagnostics.hpp"
+#include "generator/formula.hpp"
+#include "generator/units.hpp"
+
+namespace algest::model {
+
+struct Model;
+struct Equation;
+
+/// Complains where the sides or the terms of an equation differ in dimension, or in scale (mA added to A). A quantity
+/// without a unit makes what it multiplies unknown, and unknown fits everything.
+void check_dimension(const Model& model, const Equation& equation, Diagnostics& diagnostics);
+
+/// The unit of both sides; unknown if it cannot be told.
+units::Unit unit_of_equation(const Model& model, const Equation& equation);
+
+}  // namespace algest::model

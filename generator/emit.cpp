@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Plan -> the files that a user compiles: data for the templates under templates/cpp.
+#include <cmath>
+
+#include "generator/blueprint.hpp"
+#include "generator/exact.hpp"
+#include "generator/generate.hpp"
+#include "generator/plan_hash.hpp"
+#include "generator/render.hpp"
+
+#ifndef ALGEST_VERSION
+#define ALGEST_VERSION "0"
+#endif
+
+namespace algest::generator {
+
+namespace {
+
+using plan::Op;
+using plan::Plan;
+
+std::string scalar_name(const Plan& plan) { return plan.scalar == plan::Scalar::float64 ? "double" : "float"; }
+int scalar_bytes(const Plan& plan) { return plan.scalar == plan::Scalar::float64 ? 8 : 4; }
+
+/// A literal of the plan's scalar: hexadecimal, exact.
+std::string literal(double value, const Plan& plan) {
+    return exact::hexadecimal(value) + (plan.scalar == plan::Scalar::float32 ? "f" : "");
+}
+
+std::string limit_literal(double value, const Plan& plan) {
+    if (std::isfinite(value)) return literal(value, plan);
+    return std::string(value < 0 ? "-" : "") + "std::numeric_limits<Scalar>::max()";
+}
+
+std::string solve_name(const Plan& plan) {
+    switch (plan.solve) {
+        case Solve::square: return "square";
+        case Solve::robust: return "robust";
+        case Solve::least_squares: return "least_squares";
+    }
+    return "?";
+}
+
+std::string quadrature_name(const Plan& plan) {
+    switch (plan.quadrature) {
+        case plan::Quadrature::exact: return "exact";
+        case plan::Quadrature::trapezoid: return "trapezoid";
+        case plan::Quadrature::simpson: return "simpson";
+    }
+    return "?";
+}
+
+std::string unit_text(const std::string& unit) { return unit.empty() ? "unit not declared" : "[" + unit + "]"; }
+
+/// A tape as C++: one constant per operation that computes something, inputs by their names.
+class PrintedTape {
+public:
+    /// `input(op, k)`: C++ text of an operation that reads; `prefix`: of the constants' names.
+    template <class Input>
+    PrintedTape(const plan::Tape& tape, const Plan& plan, std::string prefix, Input input) : prefix_(std::move(prefix)) {
+        for (std::size_t k = 0; k < tape.operations.size(); ++k) {
+            const plan::Operation& o = tape.operations[k];
+            const bool reads = o.op == Op::input || o.op == Op::previous || o.op == Op::derivative;
+            if (reads) {
+                texts_.push_back(input(o.op, o.a));
+                continue;
+            }
+            if (o.op == Op::constant) {
+                const bool whole = std::floor(o.value) == o.value && std::abs(o.value) < 1e6;
+                texts_.push_back(whole ? "Scalar(" + std::to_string(static_cast<long>(o.value)) + ")" : literal(o.value, plan));
+                continue;
+            }
+            Data line;
+            line.set("number", std::to_string(k));
+            line.set("expression", expression(o));
+            lines_.push_back(line);
+            uses_libm_ = uses_libm_ || o.op == Op::exp || o.op == Op::log || o.op == Op::sin || o.op == Op::cos || o.op == Op::tan || o.op == Op::pow;
+            texts_.push_back(prefix_ + std::to_string(k));
+        }
+        for (const int r : tape.results) results_.push_back(texts_[static_cast<std::size_t>(r)]);
+    }
+
+    Data lines() const { return listed(lines_); }
+    const std::vector<std::string>& results() const { return results_; }
+    bool uses_libm() const { return uses_libm_; }
+
+private:
+    std::string expression(const plan::Operation& o) const {
+        const std::string a = o.a < 0 ? "" : texts_[static_cast<std::size_t>(o.a)];
+        const std::string b = o.b < 0 ? "" : texts_[static_cast<std::size_t>(o.b)];
+        switch (o.op) {
+            case Op::neg: return "-" + a;
+            case Op::add: return a + " + " + b;
+            case Op::sub: return a + " - " + b;
+            case Op::mul: return a + " * " + b;
+            case Op::div: return a + " / " + b;
+            case Op::sqrt: return "std::sqrt(" + a + ")";
+            case Op::exp: return "std::exp(" + a + ")";
+            case Op::log: return "std::log(" + a + ")";
+            case Op::sin: return "std::sin(" + a + ")";
+            case Op::cos: return "std::cos(" + a + ")";
+            case Op::tan: return "std::tan(" + a + ")";
+            case Op::abs: return "std::abs(" + a + ")";
+            case Op::sgn: return "sgn(" + a + ")";
+            case Op::min: return "smaller(" + a + ", " + b + ")";
+            case Op::max: return "larger(" + a + ", " + b + ")";
+            case Op::pow: return "std::pow(" + a + ", " + b + ")";
+            case Op::constant:
+            case Op::input:
+            case Op::previous:
+            case Op::derivative: break;
+        }
+        return "?";
+    }
+
+    std::string prefix_;
+    std::vector<std::string> texts_;
+    std::vector<std::string> results_;
+    DataList lines_;
+    bool uses_libm_ = false;
+};
+
+/// Scalars and bytes of one instance, as the class lays them out (estimator.hpp.mustache).
+int instance_bytes(const Plan& plan) {
+    const int unknowns = static_cast<int>(plan.lumped.size());
+    const int signals = static_cast<int>(plan.window_signals.size());
+    int scalars = ring_scalars(signals, ring_length(plan.solve, plan.samples())) + sum_scalars(plan.solve, unknowns, plan.solve_instants) +
+                  published_scalars(plan.solve, unknowns);
+    scalars += 2 + static_cast<int>(plan.parameters.size());   // Estimate: status padded to a scalar, condition, parameters
+    int bytes = static_cast<int>(sizeof(Progress));
+    if (plan.delayed()) {
+        scalars += static_cast<int>(plan.inputs.size());
+        for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
+        bytes += 8;
+    }
+    bytes += scalars * scalar_bytes(plan);
+    const int alignment = scalar_bytes(plan);
+    return (bytes + alignment - 1) / alignment * alignment;
+}
+
+Data head(const Plan& plan) {
+    Data d;
+    d.set("version", std::string(ALGEST_VERSION));
+    d.set("name", plan.name);
+    d.set("class_name", plan.class_name);
+    d.set("summary", plan.summary);
+    d.set("has_summary", !plan.summary.empty());
+    d.set("source", plan.source);
+    d.set("has_source", !plan.source.empty());
+    d.set("scalar", scalar_name(plan));
+    d.set("solve", solve_name(plan));
+    d.set("quadrature", quadrature_name(plan));
+    d.set("hash", plan_hash(plan));
+    d.set("abi", std::to_string(ALGEST_RUNTIME_ABI));
+    d.set("samples", std::to_string(plan.samples()));
+    d.set("signals", std::to_string(plan.window_signals.size()));
+    d.set("rows", std::to_string(plan.rows.size()));
+    d.set("unknowns", std::to_string(plan.lumped.size()));
+    d.set("instants", std::to_string(plan.solve_instants));
+    d.set("period", plan.period_text);
+    return d;
+}
+
+void set_cost(const Plan& plan, Data& d) {
+    int dots = 0;
+    for (const Functional& f : plan::make_blueprint<double>(plan).functionals) dots += f.table != no_table ? 1 : 0;
+    const int macs = dots * plan.samples();
+    const bool square = plan.solve == Solve::square;
+    d.set("push_macs", std::to_string(square ? 0 : macs));
+    d.set("estimate_macs", std::to_string(square ? macs : 0));
+    d.set("overtaken", std::to_string(square ? spare_samples : published_slots - 1));
+    d.set("size", std::to_string(instance_bytes(plan)));
+    d.set("table_bytes", std::to_string(static_cast<int>(plan.tables.size()) * plan.samples() * scalar_bytes(plan)));
+    const int first_ok = plan.samples() + std::max(plan.solve_instants - 1, 0) + (plan.delayed() ? 1 : 0);
+    d.set("first_ok", std::to_string(first_ok));
+    d.set("first_ok_s", exact::text(*exact::parse(plan.period_text) * (first_ok - 1)));
+    d.set("restart_note", plan.solve != Solve::least_squares);
+}
+
+std::string estimator_header(const Plan& plan) {
+    Data d = head(plan);
+    set_cost(plan, d);
+    d.set("delayed", plan.delayed());
+    DataList inputs;
+    DataList filters;
+    for (const plan::Input& input : plan.inputs) {
+        const bool limited = std::isfinite(input.min) || std::isfinite(input.max);
+        Data i;
+        i.set("name", input.name);
+        i.set("unit", unit_text(input.unit));
+        i.set("limited", limited);
+        i.set("min", std::isfinite(input.min) ? exact::text(exact::from_double(input.min)) : std::string("-inf"));
+        i.set("max", std::isfinite(input.max) ? exact::text(exact::from_double(input.max)) : std::string("inf"));
+        i.set("accepted", limited ? "within(s." + input.name + ", " + limit_literal(input.min, plan) + ", " + limit_literal(input.max, plan) + ")"
+                                  : "std::isfinite(s." + input.name + ")");
+        inputs.push_back(i);
+        if (input.differentiated) {
+            i.set("rate", literal(plan.rate, plan));
+            filters.push_back(i);
+        }
+    }
+    d.set("inputs", listed(inputs));
+    d.set("filters", listed(filters));
+
+    const PrintedTape signals(plan.signals, plan, "v", [&](Op op, int k) {
+        const std::string& name = plan.inputs[static_cast<std::size_t>(k)].name;
+        return op == Op::input ? "s." + name : op == Op::previous ? "previous_." + name : "derivative_" + name;
+    });
+    d.set("signal_lines", signals.lines());
+    DataList windows;
+    for (std::size_t k = 0; k < plan.window_signals.size(); ++k) {
+        Data w;
+        w.set("value", signals.results()[k]);
+        w.set("text", plan.window_signals[k].text);
+        w.set("delayed_signal", plan.window_signals[k].delayed);
+        windows.push_back(w);
+    }
+    d.set("signals_list", listed(windows));
+
+    const PrintedTape map(plan.parameter_map, plan, "m", [](Op, int k) { return "lumped[" + std::to_string(k) + "]"; });
+    d.set("map_lines", map.lines());
+    d.set("libm", signals.uses_libm() || map.uses_libm());
+    DataList parameters;
+    std::string names;
+    for (std::size_t k = 0; k < plan.parameters.size(); ++k) {
+        const plan::Parameter& p = plan.parameters[k];
+        Data i;
+        i.set("name", p.name);
+        i.set("unit", unit_text(p.unit) + (p.from == p.name ? "" : " = " + p.from));
+        i.set("initial", literal(p.initial, plan));
+        i.set("value", map.results()[k]);
+        parameters.push_back(i);
+        names += (names.empty() ? "" : ", ") + p.name;
+    }
+    d.set("parameters", listed(parameters));
+    d.set("parameter_count", std::to_string(plan.parameters.size()));
+    d.set("parameter_list", names);
+    return render("cpp/estimator.hpp.mustache", d);
+}
+
+/// The weights of a table, four a line.
+std::string weight_lines(const plan::Table& table, const Plan& plan) {
+    std::string out;
+    for (std::size_t k = 0; k < table.weights.size(); ++k) {
+        out += k % 4 == 0 ? (k == 0 ? "    " : "\n    ") : " ";
+        out += literal(table.weights[k], plan) + ",";
+    }
+    return out;
+}
+
+std::string tables_header(const Plan& plan) {
+    Data d = head(plan);
+    DataList tables;
+    for (const plan::Table& table : plan.tables) {
+        std::string kernel;
+        for (const std::string& c : table.kernel) kernel += (kernel.empty() ? "" : " ") + c;
+        Data t;
+        t.set("table_name", table.name);
+        t.set("kernel", kernel);
+        t.set("values", weight_lines(table, plan));
+        tables.push_back(t);
+    }
+    d.set("tables", listed(tables));
+    d.set("weight_count", std::to_string(plan.tables.size() * static_cast<std::size_t>(plan.samples())));
+
+    const auto blueprint = plan::make_blueprint<double>(plan);
+    DataList functionals;
+    for (const Functional& f : blueprint.functionals) {
+        Data i;
+        const bool constant = f.table == no_table;
+        i.set("table", constant ? std::string("no_table") : std::to_string(f.table));
+        i.set("signal", std::to_string(f.signal));
+        i.set("first", std::to_string(f.first_term));
+        i.set("count", std::to_string(f.terms));
+        i.set("text", constant ? std::string("of the constant 1") : plan.tables[f.table].name + " of " + plan.window_signals[f.signal].text);
+        functionals.push_back(i);
+    }
+    d.set("functionals", listed(functionals));
+    d.set("functional_count", std::to_string(blueprint.functionals.size()));
+    DataList terms;
+    for (const Term<double>& term : blueprint.terms) {
+        Data i;
+        i.set("row", std::to_string(term.row));
+        i.set("column", std::to_string(term.column));
+        i.set("factor", literal(term.factor, plan));
+        terms.push_back(i);
+    }
+    d.set("terms", listed(terms));
+    d.set("term_count", std::to_string(blueprint.terms.size()));
+    d.set("keep", literal(plan.keep, plan));
+    d.set("condition_limit", literal(plan.condition_limit, plan));
+    return render("cpp/tables.hpp.mustache", d);
+}
+
+}  // namespace
+
+std::vector<EmittedFile> emit(const Plan& plan) {
+    const std::string stem = plan.name + "/" + plan.name;
+    return {{stem + ".hpp", estimator_header(plan)}, {stem + "_tables.hpp", tables_header(plan)}, {stem + ".md", derivation_text(plan)}};
+}
+
+}  // namespace algest::generator

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/formula.hpp"
+
+#include <array>
+#include <cctype>
+
+namespace algest::formula {
+
+namespace {
+
+struct Stop {};   // unwinds the parser after its one complaint
+
+class Parser {
+public:
+    Parser(std::string_view text, const Complain& complain) : text_(text), complain_(complain) {}
+
+    Formula expression() { return sum(0); }
+
+    void expect_end() {
+        blanks();
+        if (at_ < text_.size()) unexpected();
+    }
+
+    bool accept(char c) {
+        blanks();
+        if (at_ >= text_.size() || text_[at_] != c) return false;
+        ++at_;
+        return true;
+    }
+
+    int offset() {
+        blanks();
+        return static_cast<int>(at_);
+    }
+
+    [[noreturn]] void fail(int offset, const std::string& what, const std::string& right) const {
+        complain_(offset, what, right);
+        throw Stop{};
+    }
+
+    void check_length() const {
+        if (text_.size() > static_cast<std::size_t>(longest_text)) {
+            fail(0, "the formula has " + std::to_string(text_.size()) + " characters, more than " + std::to_string(longest_text),
+                 "split the equation, or name its parts as signals");
+        }
+    }
+
+private:
+    void blanks() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r')) ++at_;
+    }
+
+    [[noreturn]] void unexpected() const {
+        if (at_ >= text_.size()) fail(static_cast<int>(text_.size()), "the formula ends too early", "add the missing operand or ')'");
+        const std::string c(1, text_[at_]);
+        if (c == ")") fail(static_cast<int>(at_), "')' without '('", "remove it, or open it before");
+        if (text_.substr(at_, 2) == "**") fail(static_cast<int>(at_), "'**' is not an operator", "write ^ for a power");
+        if (c == "=") fail(static_cast<int>(at_), "a second '='", "an equation has one '='");
+        const unsigned char byte = static_cast<unsigned char>(c[0]);
+        const std::string shown = byte < 0x20 || byte >= 0x7F ? "a character that no formula has" : "unexpected '" + c + "'";
+        fail(static_cast<int>(at_), shown, "formulas have numbers, names, + - * / ^ ( ) , and functions");
+    }
+
+    Formula node(Kind kind, int offset, std::vector<Formula> arguments, std::string name = {}, exact::Rational value = 0) {
+        if (++tokens_ > most_tokens) {
+            fail(offset, "the formula has more than " + std::to_string(most_tokens) + " operations", "split the equation");
+        }
+        return std::make_shared<const Node>(Node{kind, offset, std::move(value), std::move(name), std::move(arguments)});
+    }
+
+    void check_depth(int depth) {
+        if (depth > deepest_nesting) {
+            fail(offset(), "nested deeper than " + std::to_string(deepest_nesting) + " levels", "write it flatter");
+        }
+    }
+
+    Formula sum(int depth) {
+        check_depth(depth);
+        Formula left = product(depth);
+        for (;;) {
+            const int here = offset();
+            if (accept('+')) left = node(Kind::add, here, {left, product(depth)});
+            else if (accept('-')) left = node(Kind::subtract, here, {left, product(depth)});
+            else return left;
+        }
+    }
+
+    Formula product(int depth) {
+        Formula left = unary(depth);
+        for (;;) {
+            const int here = offset();
+            if (text_.substr(at_, 2) == "**") unexpected();
+            if (accept('*')) left = node(Kind::multiply, here, {left, unary(depth)});
+            else if (accept('/')) left = node(Kind::divide, here, {left, unary(depth)});
+            else return left;
+        }
+    }
+
+    Formula unary(int depth) {
+        check_depth(depth);
+        const int here = offset();
+        if (accept('-')) return node(Kind::negate, here, {unary(depth + 1)});
+        if (accept('+')) return unary(depth + 1);
+        return power(depth);
+    }
+
+    Formula power(int depth) {
+        Formula base = primary(depth);
+        const int here = offset();
+        if (!accept('^')) return base;
+        return node(Kind::power, here, {base, unary(depth + 1)});   // right-associative
+    }
+
+    Formula primary(int depth) {
+        const int here = offset();
+        if (at_ >= text_.size()) unexpected();
+        const char c = text_[at_];
+        if (c == '(') {
+            ++at_;
+            Formula inside = sum(depth + 1);
+            if (!accept(')')) {
+                if (at_ >= text_.size()) fail(here, "'(' is never closed", "add ')'");
+                unexpected();
+            }
+            return inside;
+        }
+        if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
+        if (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_') return name_or_call(depth);
+        unexpected();
+    }
+
+    Formula number() {
+        const std::size_t start = at_;
+        const auto digits = [&] { while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0) ++at_; };
+        digits();
+        if (at_ < text_.size() && text_[at_] == '.') { ++at_; digits(); }
+        if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
+            std::size_t next = at_ + 1;
+            if (next < text_.size() && (text_[next] == '+' || text_[next] == '-')) ++next;
+            if (next < text_.size() && std::isdigit(static_cast<unsigned char>(text_[next])) != 0) { at_ = next; digits(); }
+        }
+        const auto value = exact::parse(text_.substr(start, at_ - start));
+        if (!value) {
+            fail(static_cast<int>(start), "not a number that can be read exactly",
+                 "write a decimal with at most 400 digits and an exponent within +-400");
+        }
+        if (at_ < text_.size() && (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
+            fail(static_cast<int>(at_), "a name right after a number", "write * between them");
+        }
+        return node(Kind::number, static_cast<int>(start), {}, {}, *value);
+    }
+
+    Formula name_or_call(int depth) {
+        const std::size_t start = at_;
+        while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) ++at_;
+        std::string name(text_.substr(start, at_ - start));
+        const int here = static_cast<int>(start);
+        if (!accept('(')) return node(Kind::name, here, {}, std::move(name));
+        if (name != "der" && !is_function(name)) {
+            fail(here, "'" + name + "' is not a function",
+                 "functions are der sin cos tan exp log sqrt abs sgn min max; write * for a product");
+        }
+        std::vector<Formula> arguments;
+        do {
+            if (arguments.size() > 2) break;
+            arguments.push_back(sum(depth + 1));
+        } while (accept(','));
+        if (!accept(')')) {
+            if (at_ >= text_.size()) fail(here, "'(' of " + name + " is never closed", "add ')'");
+            if (text_[at_] != ',') unexpected();
+        }
+        const std::size_t most = name == "der" || is_function_of_two(name) ? 2 : 1;
+        const std::size_t least = is_function_of_two(name) ? 2 : 1;
+        if (arguments.size() < least || arguments.size() > most) {
+            fail(here, name + " takes " + (name == "der" ? "a signal and, if wanted, an order" : least == 2 ? "two arguments" : "one argument"),
+                 name == "der" ? "der(x) or der(x,2)" : least == 2 ? name + "(x,y)" : name + "(x)");
+        }
+        return node(Kind::call, here, std::move(arguments), std::move(name));
+    }
+
+    std::string_view text_;
+    const Complain& complain_;
+    std::size_t at_ = 0;
+    int tokens_ = 0;
+};
+
+int precedence(Kind kind) {
+    switch (kind) {
+        case Kind::add:
+        case Kind::subtract: return 1;
+        case Kind::multiply:
+        case Kind::divide: return 2;
+        case Kind::negate: return 3;
+        case Kind::power: return 4;
+        default: return 5;
+    }
+}
+
+std::string number_text(const exact::Rational& value) {
+    const std::string plain = exact::text(value);
+    return plain.find('/') == std::string::npos ? plain : "(" + plain + ")";
+}
+
+std::string printed(const Formula& f, int outer) {
+    const int own = precedence(f->kind);
+    std::string out;
+    switch (f->kind) {
+        case Kind::number: return number_text(f->value);
+        case Kind::name: return f->name;
+        case Kind::call: {
+            out = f->name + "(";
+            for (std::size_t i = 0; i < f->arguments.size(); ++i) out += (i > 0 ? "," : "") + printed(f->arguments[i], 0);
+            return out + ")";
+        }
+        case Kind::negate: out = "-" + printed(f->arguments[0], own); break;
+        case Kind::add: out = printed(f->arguments[0], own) + " + " + printed(f->arguments[1], own + 1); break;
+        case Kind::subtract: out = printed(f->arguments[0], own) + " - " + printed(f->arguments[1], own + 1); break;
+        case Kind::multiply: out = printed(f->arguments[0], own) + "*" + printed(f->arguments[1], own + 1); break;
+        case Kind::divide: out = printed(f->arguments[0], own) + "/" + printed(f->arguments[1], own + 1); break;
+        case Kind::power: out = printed(f->arguments[0], own + 1) + "^" + printed(f->arguments[1], own + 1); break;
+    }
+    return own < outer ? "(" + out + ")" : out;
+}
+
+std::string latex_number(const exact::Rational& value) {
+    const std::string plain = exact::text(value);
+    const std::size_t slash = plain.find('/');
+    if (slash == std::string::npos) return plain;
+    return "\\tfrac{" + plain.substr(0, slash) + "}{" + plain.substr(slash + 1) + "}";
+}
+
+std::string latex_printed(const Formula& f, int outer) {
+    const int own = precedence(f->kind);
+    std::string out;
+    switch (f->kind) {
+        case Kind::number: return latex_number(f->value);
+        case Kind::name: return latex_name(f->name);
+        case Kind::call: {
+            if (f->name == "der") {
+                const std::string order = f->arguments.size() > 1 ? printed(f->arguments[1], 0) : "1";
+                return latex_printed(f->arguments[0], 5) + (order == "1" ? "'" : "^{(" + order + ")}");
+            }
+            if (f->name == "sqrt") return "\\sqrt{" + latex_printed(f->arguments[0], 0) + "}";
+            if (f->name == "abs") return "\\left|" + latex_printed(f->arguments[0], 0) + "\\right|";
+            out = (f->name == "sgn" ? "\\operatorname{sgn}" : "\\" + f->name) + "\\left(";
+            for (std::size_t i = 0; i < f->arguments.size(); ++i) out += (i > 0 ? "," : "") + latex_printed(f->arguments[i], 0);
+            return out + "\\right)";
+        }
+        case Kind::negate: out = "-" + latex_printed(f->arguments[0], own); break;
+        case Kind::add: out = latex_printed(f->arguments[0], own) + " + " + latex_printed(f->arguments[1], own + 1); break;
+        case Kind::subtract: out = latex_printed(f->arguments[0], own) + " - " + latex_printed(f->arguments[1], own + 1); break;
+        case Kind::multiply: out = latex_printed(f->arguments[0], own) + "\\," + latex_printed(f->arguments[1], own + 1); break;
+        case Kind::divide: return "\\frac{" + latex_printed(f->arguments[0], 0) + "}{" + latex_printed(f->arguments[1], 0) + "}";
+        case Kind::power: return "{" + latex_printed(f->arguments[0], own + 1) + "}^{" + latex_printed(f->arguments[1], 0) + "}";
+    }
+    return own < outer ? "\\left(" + out + "\\right)" : out;
+}
+
+}  // namespace
+
+bool is_function_of_two(std::string_view name) { return name == "min" || name == "max"; }
+
+bool is_function(std::string_view name) {
+    static constexpr std::array<std::string_view, 10> names = {"sin", "cos", "tan", "exp", "log", "sqrt", "abs", "sgn", "min", "max"};
+    for (const std::string_view n : names) if (n == name) return true;
+    return false;
+}
+
+std::optional<Formula> parse(std::string_view text, const Complain& complain) {
+    try {
+        Parser parser(text, complain);
+        parser.check_length();
+        Formula out = parser.expression();
+        parser.expect_end();
+        return out;
+    } catch (const Stop&) {
+        return std::nullopt;
+    }
+}
+
+std::optional<Equation> parse_equation(std::string_view text, const Complain& complain) {
+    try {
+        Parser parser(text, complain);
+        parser.check_length();
+        Equation out;
+        out.left = parser.expression();
+        const int here = parser.offset();
+        if (!parser.accept('=')) {
+            if (here < static_cast<int>(text.size())) parser.expect_end();
+            parser.fail(here, "an equation without '='", "write left = right");
+        }
+        out.right = parser.expression();
+        parser.expect_end();
+        return out;
+    } catch (const Stop&) {
+        return std::nullopt;
+    }
+}
+
+std::string text(const Formula& formula) { return printed(formula, 0); }
+std::string latex(const Formula& formula) { return latex_printed(formula, 0); }
+
+std::string latex_name(const std::string& name) {
+    static constexpr std::array<std::string_view, 24> greek = {
+        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu", "nu",
+        "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "Gamma", "Delta", "Omega"};
+    std::string stem = name;
+    std::string subscript;
+    const std::size_t underscore = name.find('_');
+    if (underscore != std::string::npos) {
+        stem = name.substr(0, underscore);
+        subscript = name.substr(underscore + 1);
+    } else {
+        std::size_t digits = name.size();
+        while (digits > 1 && std::isdigit(static_cast<unsigned char>(name[digits - 1])) != 0) --digits;
+        stem = name.substr(0, digits);
+        subscript = name.substr(digits);
+    }
+    std::string escaped;
+    for (const char c : subscript) escaped += c == '_' ? std::string("\\_") : std::string(1, c);
+    bool is_greek = false;
+    for (const std::string_view g : greek) is_greek = is_greek || g == stem;
+    std::string out = is_greek ? "\\" + stem : stem.size() > 1 ? "\\mathrm{" + stem + "}" : stem;
+    if (!escaped.empty()) out += "_{" + (escaped.size() > 1 ? "\\mathrm{" + escaped + "}" : escaped) + "}";
+    return out;
+}
+
+}  // namespace algest::formula

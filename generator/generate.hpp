@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The front door of the generator: model file -> plan -> text.
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/diagnostics.hpp"
+#include "generator/plan.hpp"
+
+namespace algest::generator {
+
+/// What the command line may decide over the model file.
+struct PlanOptions {
+    plan::Scalar scalar = plan::Scalar::float64;
+    std::string engine;    ///< "fir", "moments", or empty: as the model says
+};
+
+/// Reads and checks a model file; every complaint goes to `diagnostics`. True when the model is sound and identifiable.
+/// With strict, a missing unit is an error.
+bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics);
+
+/// Derives the estimator of a model file. Empty when `diagnostics` says why not.
+std::optional<plan::Plan> plan_from_model(const std::string& path, const PlanOptions& options, Diagnostics& diagnostics);
+
+/// The derivation for a person, for a paper, and for a program (design.md, section 8; `weights` adds the tables).
+std::string derivation_text(const plan::Plan& plan);
+std::string derivation_latex(const plan::Plan& plan);
+std::string derivation_json(const plan::Plan& plan, bool weights);
+
+/// A file that `generate` writes: path relative to the output directory, and its bytes.
+struct EmittedFile {
+    std::string path;
+    std::string text;
+};
+/// NAME/NAME.hpp, NAME/NAME_tables.hpp, NAME/NAME.md. Throws std::logic_error if a template asks for a name it is not given.
+std::vector<EmittedFile> emit(const plan::Plan& plan);
+
+/// What differs between a file as it should be and as it is on disk (nullopt: missing): unified diff for code and
+/// derivation; for tables a summary (rows changed, largest change in units in the last place). Empty: no difference.
+std::string difference(const EmittedFile& wanted, const std::optional<std::string>& present);
+
+}  // namespace algest::generator

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/lumping.hpp"
+
+#include <ginac/ginac.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "generator/ginac_exact.hpp"
+
+namespace algest::lumping {
+
+namespace {
+
+using equation::OperatorForm;
+using equation::Term;
+using exact::Rational;
+using GiNaC::ex;
+
+/// A growing set of linearly independent polynomials, each remembered as a combination of given generators.
+class Span {
+public:
+    /// Coefficients over the generators, and what is left.
+    struct Reduced {
+        Polynomial rest;
+        std::vector<Rational> over;
+    };
+
+    Reduced reduce(Polynomial p) const {
+        Reduced out{{}, std::vector<Rational>(generators_, 0)};
+        for (const Row& row : rows_) {
+            const auto found = p.find(row.reduced.begin()->first);
+            if (found == p.end()) continue;
+            const Rational factor = found->second / row.reduced.begin()->second;
+            p = sum(p, scaled(row.reduced, -factor));
+            for (std::size_t g = 0; g < row.over.size(); ++g) out.over[g] = out.over[g] + factor * row.over[g];
+        }
+        out.rest = std::move(p);
+        return out;
+    }
+
+    /// Adds the rest of a reduction as a new generator, which is rest / scale.
+    void add(const Reduced& reduced, const Rational& scale) {
+        std::vector<Rational> over(generators_ + 1, 0);
+        over[generators_] = scale;
+        rows_.push_back({reduced.rest, over});
+        ++generators_;
+    }
+
+    std::size_t generators() const { return generators_; }
+
+private:
+    struct Row {
+        Polynomial reduced;
+        std::vector<Rational> over;
+    };
+    std::vector<Row> rows_;
+    std::size_t generators_ = 0;
+};
+
+/// The equations that share parameters, and those parameters.
+struct Component {
+    std::vector<int> equations;
+    std::vector<int> parameters;
+};
+
+class Lumper {
+public:
+    Lumper(const model::Model& model, const std::vector<OperatorForm>& forms, Diagnostics& diagnostics)
+        : model_(model), forms_(forms), diagnostics_(diagnostics), variables_(model.parameters.size()) {
+        for (const model::Parameter& p : model.parameters) names_.push_back(p.name);
+    }
+
+    std::optional<Lumping> run() {
+        out_.inverse.resize(variables_);
+        for (std::size_t e = 0; e < forms_.size(); ++e) {
+            out_.equations.push_back({false, false, one(), -1, {}});
+        }
+        if (!every_parameter_is_kept()) return std::nullopt;
+        const std::vector<Component> components = connected();
+        for (std::size_t c = 0; c < components.size(); ++c) {
+            if (!lump_component(components[c], static_cast<int>(c))) return std::nullopt;
+        }
+        return std::move(out_);
+    }
+
+private:
+    Quotient one() const { return {constant(1, variables_), constant(1, variables_)}; }
+
+    /// True when the rows of the equation see the term: kappa >= 1 erases constants.
+    bool kept(std::size_t e, const Term& term) const {
+        return model_.equations[e].kappa == 0 || !forms_[e].is_constant(term.product);
+    }
+
+    std::vector<int> parameters_of(std::size_t e, bool kept_only) const {
+        std::vector<int> out;
+        for (std::size_t k = 0; k < variables_; ++k) {
+            for (const Term& term : forms_[e].terms) {
+                if (uses(term.coefficient, k) && (!kept_only || kept(e, term))) {
+                    out.push_back(static_cast<int>(k));
+                    break;
+                }
+            }
+        }
+        return out;
+    }
+
+    bool every_parameter_is_kept() {
+        bool good = true;
+        for (std::size_t k = 0; k < variables_; ++k) {
+            bool anywhere = false;
+            bool seen = false;
+            for (std::size_t e = 0; e < forms_.size(); ++e) {
+                const auto all = parameters_of(e, false);
+                const auto those = parameters_of(e, true);
+                anywhere = anywhere || std::count(all.begin(), all.end(), static_cast<int>(k)) > 0;
+                seen = seen || std::count(those.begin(), those.end(), static_cast<int>(k)) > 0;
+            }
+            const model::Parameter& p = model_.parameters[k];
+            if (!anywhere) {
+                diagnostics_.unidentifiable(model_.path, p.at, "parameter '" + p.name + "' stands in no equation", "remove it, or use it");
+                good = false;
+            } else if (!seen) {
+                diagnostics_.unidentifiable(model_.path, p.at, "parameter '" + p.name + "' multiplies a constant, which kappa >= 1 erases",
+                                            "set kappa = 0 in its equation, or declare it under [constants]");
+                good = false;
+            }
+        }
+        return good;
+    }
+
+    std::vector<Component> connected() const {
+        std::vector<Component> out;
+        std::vector<bool> taken(forms_.size(), false);
+        for (std::size_t first = 0; first < forms_.size(); ++first) {
+            if (taken[first] || parameters_of(first, true).empty()) continue;
+            Component c;
+            std::vector<std::size_t> open = {first};
+            taken[first] = true;
+            while (!open.empty()) {
+                const std::size_t e = open.back();
+                open.pop_back();
+                c.equations.push_back(static_cast<int>(e));
+                for (const int p : parameters_of(e, true)) {
+                    if (std::find(c.parameters.begin(), c.parameters.end(), p) != c.parameters.end()) continue;
+                    c.parameters.push_back(p);
+                    for (std::size_t other = 0; other < forms_.size(); ++other) {
+                        const auto theirs = parameters_of(other, true);
+                        if (!taken[other] && std::count(theirs.begin(), theirs.end(), p) > 0) {
+                            taken[other] = true;
+                            open.push_back(other);
+                        }
+                    }
+                }
+            }
+            std::sort(c.equations.begin(), c.equations.end());
+            std::sort(c.parameters.begin(), c.parameters.end());
+            out.push_back(c);
+        }
+        return out;
+    }
+
+    const Polynomial& leading(int e) const {
+        const OperatorForm& form = forms_[static_cast<std::size_t>(e)];
+        return form.terms[static_cast<std::size_t>(form.leading >= 0 ? form.leading : 0)].coefficient;
+    }
+
+    template <class Use>
+    void each_term(const Component& c, Use use) const {
+        for (const int e : c.equations) {
+            const std::vector<Term>& terms = forms_[static_cast<std::size_t>(e)].terms;
+            for (std::size_t k = 0; k < terms.size(); ++k) {
+                if (kept(static_cast<std::size_t>(e), terms[k])) use(e, static_cast<int>(k), terms[k]);
+            }
+        }
+    }
+
+    bool linear_as_written(const Component& c) const {
+        bool linear = true;
+        each_term(c, [&](int, int, const Term& term) { linear = linear && total_degree(term.coefficient) <= 1; });
+        return linear;
+    }
+
+    /// Everything over the product of the different leading coefficients, as combinations of that product (known) and unknowns.
+    struct Divided {
+        Polynomial denominator;
+        std::vector<Polynomial> unknowns;
+        std::vector<LumpedTerm> terms;   // in the order of each_term; unknowns numbered from 0
+        std::vector<int> equations;
+    };
+
+    Divided divided(const Component& c) const {
+        Divided out;
+        std::vector<Polynomial> different;
+        for (const int e : c.equations) {
+            if (std::find(different.begin(), different.end(), leading(e)) == different.end()) different.push_back(leading(e));
+        }
+        const auto others = [&](const Polynomial& mine) {
+            Polynomial p = constant(1, variables_);
+            for (const Polynomial& d : different) if (d != mine) p = product(p, d);
+            return p;
+        };
+        out.denominator = product(different[0], others(different[0]));
+        Span span;
+        span.add(span.reduce(out.denominator), 1);
+        each_term(c, [&](int e, int k, const Term& term) {
+            Span::Reduced reduced = span.reduce(product(term.coefficient, others(leading(e))));
+            if (!reduced.rest.empty()) {
+                const Rational scale = content(reduced.rest);
+                out.unknowns.push_back(scaled(reduced.rest, 1 / scale));
+                span.add(reduced, scale);
+                reduced.over.push_back(scale);
+            }
+            LumpedTerm lumped{k, reduced.over[0], {}};
+            for (std::size_t g = 1; g < reduced.over.size(); ++g) {
+                if (!cln::zerop(reduced.over[g])) lumped.unknown.emplace_back(static_cast<int>(g - 1), reduced.over[g]);
+            }
+            out.terms.push_back(lumped);
+            out.equations.push_back(e);
+        });
+        return out;
+    }
+
+    bool lump_component(const Component& c, int number) {
+        const Divided quotient = divided(c);
+        const bool linear = linear_as_written(c);
+        const std::size_t physical = c.parameters.size();
+        if (linear && physical < quotient.unknowns.size()) return take_as_written(c, number);
+        if (quotient.unknowns.size() > physical) return refuse_surplus(c, quotient);
+        if (quotient.unknowns.size() < physical) return refuse_shortage(c, quotient);
+        return take_divided(c, quotient, number);
+    }
+
+    std::string meaning_text(const Polynomial& unknown, const Polynomial& denominator) const {
+        return text(simplified({unknown, denominator}), names_);
+    }
+
+    std::string list(const std::vector<int>& parameters) const {
+        std::string out;
+        for (const int p : parameters) out += (out.empty() ? "" : ", ") + names_[static_cast<std::size_t>(p)];
+        return out;
+    }
+
+    std::string seen(const Divided& quotient) const {
+        std::string out;
+        for (const Polynomial& u : quotient.unknowns) out += (out.empty() ? "" : ", ") + meaning_text(u, quotient.denominator);
+        return out.empty() ? "nothing" : out;
+    }
+
+    bool refuse_surplus(const Component& c, const Divided& quotient) {
+        std::string term = "?";
+        int where = c.equations[0];
+        bool found = false;
+        each_term(c, [&](int e, int, const Term& t) {
+            if (found || total_degree(t.coefficient) <= 1) return;
+            const OperatorForm& form = forms_[static_cast<std::size_t>(e)];
+            term = "(" + text(t.coefficient, names_) + ")*" + form.text(t.product);
+            where = e;
+            found = true;
+        });
+        const model::Equation& equation = model_.equations[static_cast<std::size_t>(where)];
+        diagnostics_.error(model_.path, equation.at,
+                           "equation '" + equation.name + "' is linear only in " + std::to_string(quotient.unknowns.size()) + " products (" + seen(quotient) + ") of its " +
+                               std::to_string(c.parameters.size()) + " parameters, because of the term " + term,
+                           "declare a parameter of that term under [constants], or name the product as a parameter of its own");
+        return false;
+    }
+
+    bool refuse_shortage(const Component& c, const Divided& quotient) {
+        const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
+        diagnostics_.unidentifiable(model_.path, equation.at,
+                                    "the " + std::to_string(c.parameters.size()) + " parameters " + list(c.parameters) + " enter only through " + seen(quotient),
+                                    "declare " + std::to_string(c.parameters.size() - quotient.unknowns.size()) + " of them under [constants], or name these combinations as parameters");
+        return false;
+    }
+
+    bool take_as_written(const Component& c, int number) {
+        const int first = static_cast<int>(out_.unknowns.size());
+        Span span;   // of the coefficient vectors of the unknowns, one variable a term
+        for (const int p : c.parameters) {
+            Polynomial meaning;
+            Exponents e(variables_, 0);
+            e[static_cast<std::size_t>(p)] = 1;
+            meaning.emplace(e, 1);
+            out_.unknowns.push_back({names_[static_cast<std::size_t>(p)], {meaning, constant(1, variables_)}, number});
+        }
+        std::vector<Polynomial> columns(c.parameters.size());
+        int place = 0;
+        each_term(c, [&](int e, int k, const Term& term) {
+            LumpedTerm lumped{k, 0, {}};
+            for (const auto& [exponents, coefficient] : term.coefficient) {
+                const auto at = std::find(exponents.begin(), exponents.end(), 1);
+                if (at == exponents.end()) {
+                    lumped.known = coefficient;
+                    continue;
+                }
+                const int p = static_cast<int>(at - exponents.begin());
+                const std::size_t local = static_cast<std::size_t>(std::find(c.parameters.begin(), c.parameters.end(), p) - c.parameters.begin());
+                lumped.unknown.emplace_back(first + static_cast<int>(local), coefficient);
+                columns[local].emplace(Exponents{place}, coefficient);
+            }
+            ++place;
+            keep(e, lumped, number, false, one());
+        });
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const Span::Reduced reduced = span.reduce(columns[k]);
+            if (reduced.rest.empty()) {
+                const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
+                diagnostics_.unidentifiable(model_.path, equation.at, "parameter '" + names_[static_cast<std::size_t>(c.parameters[k])] + "' enters only together with others of " + list(c.parameters),
+                                            "declare it under [constants], or name the combination as a parameter");
+                return false;
+            }
+            span.add(reduced, 1);
+        }
+        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+            out_.inverse[static_cast<std::size_t>(c.parameters[k])] = identity(first + static_cast<int>(k));
+        }
+        return true;
+    }
+
+    Quotient identity(int unknown) const {
+        Exponents e(static_cast<std::size_t>(unknown) + 1, 0);
+        e[static_cast<std::size_t>(unknown)] = 1;
+        return {Polynomial{{e, 1}}, constant(1, e.size())};
+    }
+
+    void keep(int e, const LumpedTerm& term, int component, bool is_divided, const Quotient& lead) {
+        LumpedEquation& equation = out_.equations[static_cast<std::size_t>(e)];
+        equation.used = true;
+        equation.component = component;
+        equation.divided = is_divided;
+        equation.leading = lead;
+        equation.terms.push_back(term);
+    }
+
+    bool take_divided(const Component& c, const Divided& quotient, int number) {
+        const int first = static_cast<int>(out_.unknowns.size());
+        for (const Polynomial& u : quotient.unknowns) {
+            const Quotient meaning = simplified({u, quotient.denominator});
+            out_.unknowns.push_back({unknown_name(meaning), meaning, number});
+        }
+        for (std::size_t k = 0; k < quotient.terms.size(); ++k) {
+            LumpedTerm term = quotient.terms[k];
+            for (auto& [unknown, factor] : term.unknown) unknown += first;
+            const int e = quotient.equations[k];
+            const Polynomial& lead = leading(e);
+            keep(e, term, number, !(is_constant(lead) && lead.begin()->second == 1), {lead, constant(1, variables_)});
+        }
+        return invert(c, first);
+    }
+
+    /// The parameter's own name where the unknown is that parameter, else the next Gamma.
+    std::string unknown_name(const Quotient& meaning) {
+        const bool plain = is_constant(meaning.denominator) && meaning.numerator.size() == 1 && total_degree(meaning.numerator) == 1 &&
+                           meaning.numerator.begin()->second == 1;
+        if (plain) return text(meaning, names_);
+        std::string name;
+        do {
+            name = "Gamma" + std::to_string(++gammas_);
+        } while (model_.signal(name) != nullptr || model_.parameter(name) != nullptr || model_.constant(name) != nullptr);
+        return name;
+    }
+
+    /// Common factors removed, signs and order ours.
+    Quotient simplified(const Quotient& q) const {
+        std::vector<GiNaC::symbol> symbols;
+        for (const std::string& n : names_) symbols.emplace_back(n);
+        const ex parts = (to_ginac(q.numerator, symbols) / to_ginac(q.denominator, symbols)).normal().numer_denom();
+        return reduced({to_polynomial(parts.op(0).expand(), symbols), to_polynomial(parts.op(1).expand(), symbols)});
+    }
+
+    /// Solves unknown_k = meaning_k for the parameters, one after the other, always one that stands linearly.
+    bool invert(const Component& c, int first) {
+        std::vector<GiNaC::symbol> symbols;
+        for (const std::string& n : names_) symbols.emplace_back(n);
+        std::vector<GiNaC::symbol> unknowns;
+        for (const Unknown& u : out_.unknowns) unknowns.emplace_back("G" + u.name);
+        std::vector<ex> equations;
+        for (std::size_t k = static_cast<std::size_t>(first); k < out_.unknowns.size(); ++k) {
+            const Quotient& m = out_.unknowns[k].meaning;
+            equations.push_back((unknowns[k] * to_ginac(m.denominator, symbols) - to_ginac(m.numerator, symbols)).expand());
+        }
+        std::vector<int> open = c.parameters;
+        std::vector<std::pair<int, ex>> solved;
+        while (!open.empty()) {
+            const auto choice = most_lonely(equations, open, symbols);
+            if (!choice) {
+                const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
+                diagnostics_.error(model_.path, equation.at, "the combinations that the rows see cannot be solved for " + list(open) + " by rational operations",
+                                   "name the combination as a parameter of its own");
+                return false;
+            }
+            const auto [e, p] = *choice;
+            const GiNaC::symbol& x = symbols[static_cast<std::size_t>(p)];
+            const ex solution = (-equations[e].coeff(x, 0) / equations[e].coeff(x, 1)).normal();
+            equations.erase(equations.begin() + static_cast<std::ptrdiff_t>(e));
+            for (ex& other : equations) other = other.subs(x == solution).normal().numer().expand();
+            for (auto& [q, earlier] : solved) earlier = earlier.subs(x == solution).normal();
+            solved.emplace_back(p, solution);
+            open.erase(std::find(open.begin(), open.end(), p));
+        }
+        for (const auto& [p, solution] : solved) {
+            const ex parts = solution.normal().numer_denom();
+            out_.inverse[static_cast<std::size_t>(p)] = reduced({to_polynomial(parts.op(0).expand(), unknowns), to_polynomial(parts.op(1).expand(), unknowns)});
+        }
+        return true;
+    }
+
+    /// The equation and open parameter in which the equation is linear, with the fewest other open parameters beside it.
+    static std::optional<std::pair<std::size_t, int>> most_lonely(const std::vector<ex>& equations, const std::vector<int>& open, const std::vector<GiNaC::symbol>& symbols) {
+        std::optional<std::pair<std::size_t, int>> best;
+        int least = 0;
+        for (std::size_t e = 0; e < equations.size(); ++e) {
+            for (const int p : open) {
+                const GiNaC::symbol& x = symbols[static_cast<std::size_t>(p)];
+                if (equations[e].degree(x) != 1 || equations[e].coeff(x, 1).is_zero()) continue;
+                int others = 0;
+                for (const int q : open) if (q != p && equations[e].has(symbols[static_cast<std::size_t>(q)])) ++others;
+                if (!best || others < least) {
+                    best = {e, p};
+                    least = others;
+                }
+            }
+        }
+        return best;
+    }
+
+    const model::Model& model_;
+    const std::vector<OperatorForm>& forms_;
+    Diagnostics& diagnostics_;
+    std::size_t variables_;
+    std::vector<std::string> names_;
+    Lumping out_;
+    int gammas_ = 0;
+};
+
+}  // namespace
+
+std::optional<Lumping> lump(const model::Model& model, const std::vector<OperatorForm>& forms, Diagnostics& diagnostics) {
+    return Lumper(model, forms, diagnostics).run();
+}
+
+}  // namespace algest::lumping

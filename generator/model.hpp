@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A model file, read and checked (design.md, section 3). What is here is sound: names exist and are distinct, numbers are
+// exact and in range, formulas parse, units are known and fit. Whether an estimator follows is for `equation` to say.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/diagnostics.hpp"
+#include "generator/exact.hpp"
+#include "generator/formula.hpp"
+#include "generator/plan.hpp"
+
+namespace algest::model {
+
+using exact::Rational;
+
+struct Signal {
+    std::string name;
+    Position at;
+    std::string unit;                 ///< empty: not declared
+    plan::Hold hold = plan::Hold::linear;
+    std::string column;
+    std::optional<Rational> noise;    ///< standard deviation, in the unit
+    std::optional<Rational> resolution;
+    std::optional<Rational> initial;
+    std::optional<Rational> min;
+    std::optional<Rational> max;
+    bool scored = true;
+};
+
+struct Constant {
+    std::string name;
+    Position at;
+    std::string unit;
+    Rational value;
+};
+
+struct Parameter {
+    std::string name;
+    Position at;
+    std::string unit;
+    std::optional<Rational> initial;
+    std::optional<Rational> min;
+    std::optional<Rational> max;
+};
+
+/// Which rows p of an equation: a count (p = 1 .. count), a list, or nothing said.
+struct RowChoice {
+    std::optional<int> count;
+    std::vector<int> list;
+    Position at;
+};
+
+struct Equation {
+    std::string name;
+    std::string file;
+    Position at;                       ///< of the ode's text
+    std::string ode;                   ///< as written
+    std::vector<Position> places;      ///< position of each byte of `ode` in the file, and of its end
+    formula::Equation sides;
+    int kappa = 0;
+    RowChoice rows;
+    std::optional<Rational> scale;     ///< typical size, in the equation's unit
+    Position place(int offset) const;
+};
+
+struct Feedback {
+    std::string signal;
+    Position at;
+    std::string law_text;
+    std::vector<Position> places;
+    formula::Formula law;
+};
+
+enum class Functional { annihilator, discrete, derivative, average };
+enum class Solver { square, robust, least_squares, elimination };
+
+struct Estimator {
+    bool given = false;
+    Position at;
+    Functional functional = Functional::annihilator;
+    int form = 1;
+    Solver solve = Solver::square;
+    std::optional<Rational> solve_window;   ///< s
+    Rational forgetting = 1;                ///< factor on the weight of old rows at each sample, least squares
+    std::optional<Rational> condition_limit;
+    std::string engine = "fir";
+    plan::Quadrature quadrature = plan::Quadrature::exact;
+};
+
+struct Model {
+    std::string path;
+    std::string name;
+    std::string summary;
+    std::string source;
+    std::optional<Rational> period;   ///< s
+    std::optional<Rational> window;   ///< s
+    Position sampling_at;
+    Position window_at;
+    bool growing = false;
+    std::vector<Signal> signals;
+    std::vector<Constant> constants;
+    std::vector<Parameter> parameters;
+    std::vector<Equation> equations;  ///< a [transfer] is written out as one
+    std::vector<Feedback> feedback;
+    Estimator estimator;
+
+    const Signal* signal(const std::string& name) const;
+    const Constant* constant(const std::string& name) const;
+    const Parameter* parameter(const std::string& name) const;
+    int signal_index(const std::string& name) const;      ///< -1: none
+    int parameter_index(const std::string& name) const;   ///< -1: none
+};
+
+/// Largest orders and window that are accepted.
+constexpr int largest_order = 12;
+constexpr int largest_kappa = 8;
+constexpr int largest_row = 40;
+constexpr int most_intervals = 1000000;
+
+/// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.
+/// With strict, a missing unit is an error instead of a warning.
+std::optional<Model> read(const std::string& path, bool strict, Diagnostics& diagnostics);
+
+}  // namespace algest::model

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "generator/formula.hpp"
+
+namespace algest::model {
+
+namespace {
+
+constexpr std::array<std::string_view, 98> cpp_words = {
+    "alignas", "alignof", "and", "and_eq", "asm", "atomic_cancel", "atomic_commit", "atomic_noexcept", "auto", "bitand",
+    "bitor", "bool", "break", "case", "catch", "char", "char8_t", "char16_t", "char32_t", "class", "compl", "concept",
+    "const", "consteval", "constexpr", "constinit", "const_cast", "continue", "co_await", "co_return", "co_yield",
+    "decltype", "default", "delete", "do", "double", "dynamic_cast", "else", "enum", "explicit", "export", "extern",
+    "false", "float", "for", "friend", "goto", "if", "inline", "int", "long", "mutable", "namespace", "new", "noexcept",
+    "not", "not_eq", "nullptr", "operator", "or", "or_eq", "private", "protected", "public", "reflexpr", "register",
+    "reinterpret_cast", "requires", "return", "short", "signed", "sizeof", "static", "static_assert", "static_cast",
+    "struct", "switch", "synchronized", "template", "this", "thread_local", "throw", "true", "try", "typedef", "typeid",
+    "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq", "main"};
+
+// Members of every generated class, and macros that standard headers define.
+constexpr std::array<std::string_view, 24> taken = {
+    "algest", "std", "status", "condition", "reset", "push", "estimate", "step", "Sample", "Estimate", "Scalar", "NAN",
+    "INFINITY", "HUGE_VAL", "NULL", "EOF", "assert", "errno", "signbit", "isnan", "isinf", "isfinite", "linux", "unix"};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+std::optional<NameFault> fault_of_name(const std::string& name) {
+    if (name.empty()) return NameFault{"an empty name", "give it one"};
+    if (name.size() > 60) return NameFault{"a name of " + std::to_string(name.size()) + " characters", "use at most 60"};
+    if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
+        return NameFault{"'" + name + "' does not start with a letter", "names are letters, digits and _, a letter first"};
+    }
+    for (const char c : name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') {
+            return NameFault{"'" + name + "' is not a name", "names are letters, digits and _, a letter first"};
+        }
+    }
+    if (name.find("__") != std::string::npos || name.back() == '_') {
+        return NameFault{"'" + name + "' is reserved in C++", "leave out the double or trailing underscore"};
+    }
+    if (contains(cpp_words, name)) return NameFault{"'" + name + "' is a C++ keyword", "choose another name, e.g. " + name + "1"};
+    if (contains(taken, name)) return NameFault{"'" + name + "' is taken by generated code", "choose another name, e.g. " + name + "1"};
+    if (name == "der" || formula::is_function(name)) return NameFault{"'" + name + "' is a function", "choose another name"};
+    return std::nullopt;
+}
+
+std::optional<NameFault> fault_of_model_name(const std::string& name) {
+    const auto fine = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+    const bool shape = !name.empty() && name.size() <= 60 && name[0] >= 'a' && name[0] <= 'z' && name.back() != '_' &&
+                       name.find("__") == std::string::npos && std::all_of(name.begin(), name.end(), fine);
+    if (!shape) return NameFault{"'" + name + "' is not a model name", "use lower case, digits and single _, a letter first: dc_motor"};
+    if (contains(cpp_words, name)) return NameFault{"'" + name + "' is a C++ keyword", "choose another name"};
+    return std::nullopt;
+}
+
+std::string class_name(const std::string& model_name) {
+    std::string out;
+    bool upper = true;
+    for (const char c : model_name) {
+        if (c == '_') {
+            upper = true;
+        } else {
+            out += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+            upper = false;
+        }
+    }
+    return out;
+}
+
+std::optional<NameFault> fault_of_prose(const std::string& text) {
+    for (const std::string_view mark : {"{{", "}}", "/*", "*/", "?\?/"}) {
+        if (text.find(mark) != std::string::npos) {
+            return NameFault{"'" + std::string(mark) + "' in a text that goes into generated code", "write it without these characters"};
+        }
+    }
+    if (text.size() > 300) return NameFault{"a text of " + std::to_string(text.size()) + " bytes", "one line of at most 300"};
+    for (const char c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+            return NameFault{"a line break or control character in a text that goes into generated code", "write one line"};
+        }
+    }
+    if (!text.empty() && text.back() == '\\') return NameFault{"a text that ends in a backslash", "leave it out"};
+    return std::nullopt;
+}
+
+}  // namespace algest::model

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Model -> plan: which rows, which tables, which weights, which map back.
+#include "generator/plan.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "generator/annihilator.hpp"
+#include "generator/generate.hpp"
+#include "generator/kernel.hpp"
+#include "generator/lumping.hpp"
+#include "generator/model.hpp"
+#include "generator/names.hpp"
+#include "generator/row_choice.hpp"
+#include "generator/row_weight.hpp"
+#include "generator/tape_builder.hpp"
+
+namespace algest::generator {
+
+namespace {
+
+using equation::OperatorForm;
+using exact::Rational;
+
+class Planner {
+public:
+    Planner(const model::Model& model, const PlanOptions& options, Diagnostics& diagnostics)
+        : model_(model), options_(options), diagnostics_(diagnostics) {}
+
+    std::optional<plan::Plan> run() {
+        if (!what_is_missing()) return std::nullopt;
+        const auto forms = operator_forms(model_, diagnostics_);
+        if (!forms) return std::nullopt;
+        forms_ = *forms;
+        const auto lumping = lumping::lump(model_, forms_, diagnostics_);
+        if (!lumping) return std::nullopt;
+        lumping_ = *lumping;
+        const auto rows = choose_rows(model_, lumping_, diagnostics_);
+        if (!rows) return std::nullopt;
+        rows_ = *rows;
+        const auto weights = row_weights(model_, forms_, lumping_, rows_, diagnostics_);
+        if (!weights) return std::nullopt;
+
+        head();
+        equations();
+        inputs();
+        tables_and_rows(*weights);
+        unknowns_and_parameters();
+        solver();
+        return std::move(plan_);
+    }
+
+    static std::optional<std::vector<OperatorForm>> operator_forms(const model::Model& model, Diagnostics& diagnostics) {
+        std::vector<OperatorForm> out;
+        bool good = true;
+        for (const model::Equation& e : model.equations) {
+            const auto form = equation::operator_form(model, e, diagnostics);
+            good = good && form.has_value();
+            if (form) out.push_back(*form);
+        }
+        return good ? std::optional(out) : std::nullopt;
+    }
+
+private:
+    bool what_is_missing() {
+        if (!model_.period) diagnostics_.error(model_.path, model_.sampling_at, "no sampling period", "add [sampling] period = 1e-3, in seconds");
+        if (!model_.window) {
+            diagnostics_.error(model_.path, model_.sampling_at, "no window: an estimator needs one",
+                               "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
+        }
+        if (model_.growing) {
+            diagnostics_.error(model_.path, model_.sampling_at, "growing = true needs the moments engine, which this version does not have",
+                               "leave it out: the window then slides from the start");
+        }
+        if (model_.parameters.empty()) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
+        if (!diagnostics_.has_errors() && model_.estimator.quadrature == plan::Quadrature::simpson && cln::oddp(cln::numerator(intervals()))) {
+            diagnostics_.error(model_.path, model_.estimator.at, "Simpson's rule needs an even number of periods in the window", "change the window by one period");
+        }
+        return !diagnostics_.has_errors();
+    }
+
+    Rational intervals() const { return *model_.window / *model_.period; }
+
+    void head() {
+        plan_.name = model_.name;
+        plan_.class_name = model::class_name(model_.name);
+        plan_.summary = model_.summary;
+        plan_.source = model_.source;
+        plan_.scalar = options_.scalar;
+        plan_.period_text = exact::text(*model_.period);
+        plan_.period = exact::nearest(*model_.period, plan::Scalar::float64);
+        plan_.rate = exact::nearest(1 / *model_.period, options_.scalar);
+        plan_.intervals = cln::cl_I_to_int(cln::numerator(intervals()));
+        plan_.quadrature = model_.estimator.quadrature;
+        if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\", functional = \"annihilator\"");
+        const std::string engine = options_.engine.empty() ? model_.estimator.engine : options_.engine;
+        if (engine == "moments") plan_.notes.push_back("engine moments is not in this version: fir is used, which gives the same numbers");
+    }
+
+    void equations() {
+        std::vector<std::string> names;
+        for (const lumping::Unknown& u : lumping_.unknowns) names.push_back(u.name);
+        std::vector<std::string> parameters;
+        for (const model::Parameter& p : model_.parameters) parameters.push_back(p.name);
+        for (std::size_t e = 0; e < forms_.size(); ++e) {
+            const lumping::LumpedEquation& lumped = lumping_.equations[e];
+            equation_index_.push_back(lumped.used ? static_cast<int>(plan_.equations.size()) : -1);
+            if (!lumped.used) {
+                plan_.notes.push_back("equation '" + model_.equations[e].name + "' has no unknowns and serves simulation alone");
+                continue;
+            }
+            const model::Equation& source = model_.equations[e];
+            plan::Equation out;
+            out.name = source.name;
+            out.ode = source.ode;
+            out.n = forms_[e].n;
+            out.kappa = source.kappa;
+            out.form = model_.estimator.form;
+            out.divided = lumped.divided;
+            out.leading = text(lumped.leading, parameters);
+            out.delayed = forms_[e].delayed;
+            for (const lumping::LumpedTerm& term : lumped.terms) {
+                const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term.term)].product;
+                Polynomial coefficient = constant(term.known, names.size());
+                for (const auto& [unknown, factor] : term.unknown) {
+                    Exponents x(names.size(), 0);
+                    x[static_cast<std::size_t>(unknown)] = 1;
+                    coefficient = sum(coefficient, Polynomial{{x, factor}});
+                }
+                out.operators.push_back({text(coefficient, names), signal_text(e, product), forms_[e].order(product)});
+            }
+            for (int i = 0; i <= out.n; ++i) {
+                std::vector<plan::LeibnizTerm> terms;
+                for (const auto& t : annihilator::leibniz_expansion(i, {out.n, out.kappa})) terms.push_back({exact::text(t.coefficient), t.power, t.derivative});
+                out.leibniz.push_back(terms);
+            }
+            plan_.equations.push_back(out);
+        }
+    }
+
+    /// A product as a signal: a lone derivative is its signal.
+    std::string signal_text(std::size_t e, const equation::Product& product) const {
+        const OperatorForm& form = forms_[e];
+        if (form.order(product) > 0) return model_.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(product[0].atom)].signal)].name;
+        return form.text(product);
+    }
+
+    void inputs() {
+        std::set<int> used;
+        std::set<int> differentiated;
+        for (std::size_t e = 0; e < forms_.size(); ++e) {
+            if (!lumping_.equations[e].used) continue;
+            for (const lumping::LumpedTerm& term : lumping_.equations[e].terms) {
+                const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term.term)].product;
+                const bool lone = forms_[e].order(product) > 0;
+                for (const equation::Factor& factor : product) {
+                    const equation::Atom& atom = forms_[e].atoms[static_cast<std::size_t>(factor.atom)];
+                    used.insert(atom.arguments.begin(), atom.arguments.end());
+                    if (!lone && atom.kind == equation::Atom::Kind::derivative) differentiated.insert(atom.signal);
+                    if (atom.differentiates) collect_differentiated(atom.formula, differentiated);
+                }
+            }
+        }
+        input_of_signal_.assign(model_.signals.size(), -1);
+        const double infinity = std::numeric_limits<double>::infinity();
+        for (const int s : used) {
+            const model::Signal& signal = model_.signals[static_cast<std::size_t>(s)];
+            input_of_signal_[static_cast<std::size_t>(s)] = static_cast<int>(plan_.inputs.size());
+            plan_.inputs.push_back({signal.name, signal.unit, signal.column,
+                                    signal.min ? exact::nearest(*signal.min, plan_.scalar) : -infinity,
+                                    signal.max ? exact::nearest(*signal.max, plan_.scalar) : infinity, differentiated.count(s) > 0});
+        }
+    }
+
+    void collect_differentiated(const formula::Formula& f, std::set<int>& out) const {
+        if (f->kind == formula::Kind::call && f->name == "der") out.insert(model_.signal_index(f->arguments[0]->name));
+        for (const formula::Formula& a : f->arguments) collect_differentiated(a, out);
+    }
+
+    plan::Hold hold_of(std::size_t e, const equation::Product& product) const {
+        bool held = true;
+        for (const equation::Factor& factor : product) {
+            const equation::Atom& atom = forms_[e].atoms[static_cast<std::size_t>(factor.atom)];
+            for (const int s : atom.arguments) held = held && model_.signals[static_cast<std::size_t>(s)].hold == plan::Hold::zoh;
+            held = held && !atom.differentiates && (atom.kind != equation::Atom::Kind::derivative || forms_[e].order(product) > 0);
+        }
+        return held ? plan::Hold::zoh : plan::Hold::linear;
+    }
+
+    int window_signal(std::size_t e, const equation::Product& product, TapeBuilder& tape) {
+        const plan::WindowSignal wanted{signal_text(e, product), hold_of(e, product), forms_[e].delayed};
+        for (std::size_t k = 0; k < plan_.window_signals.size(); ++k) {
+            const plan::WindowSignal& s = plan_.window_signals[k];
+            if (s.text == wanted.text && s.delayed == wanted.delayed) return static_cast<int>(k);
+        }
+        plan_.window_signals.push_back(wanted);
+        equation::Product undifferentiated = product;
+        OperatorForm form = forms_[e];
+        if (form.order(product) > 0) {   // the kernel differentiates: the ring holds the signal itself
+            equation::Atom& atom = form.atoms[static_cast<std::size_t>(product[0].atom)];
+            atom.formula = atom.formula->arguments[0];
+        }
+        tape.result(tape.product(form, undifferentiated, forms_[e].delayed));
+        return static_cast<int>(plan_.window_signals.size()) - 1;
+    }
+
+    int table(std::size_t e, int derivative, int p, plan::Hold hold) {
+        const int n = forms_[e].n;
+        const int kappa = model_.equations[e].kappa;
+        for (std::size_t k = 0; k < plan_.tables.size(); ++k) {
+            const plan::Table& t = plan_.tables[k];
+            if (t.n == n && t.kappa == kappa && t.derivative == derivative && t.p == p && t.hold == hold) return static_cast<int>(k);
+        }
+        plan::Table out;
+        out.n = n;
+        out.kappa = kappa;
+        out.form = model_.estimator.form;
+        out.derivative = derivative;
+        out.p = p;
+        out.hold = hold;
+        const std::string kind = hold == plan::Hold::zoh ? "zoh"
+                                 : plan_.quadrature == plan::Quadrature::exact ? "linear"
+                                 : plan_.quadrature == plan::Quadrature::trapezoid ? "trapezoid" : "simpson";
+        out.name = "n" + std::to_string(n) + "_kappa" + std::to_string(kappa) + "_F_" + std::to_string(derivative) + "_" + std::to_string(p) + "_" + kind;
+        const kernel::Coefficients k = annihilator::kernel(derivative, p, {n, kappa});
+        for (const Rational& c : k) out.kernel.push_back(exact::text(c));
+        out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
+        plan_.tables.push_back(out);
+        return static_cast<int>(plan_.tables.size()) - 1;
+    }
+
+    void tables_and_rows(const RowWeights& weights) {
+        TapeBuilder tape(model_, plan_.scalar, input_of_signal_);
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            const std::size_t e = static_cast<std::size_t>(rows_[r].equation);
+            plan::Row row{equation_index_[e], rows_[r].p, {}};
+            std::vector<plan::RowTerm> known;
+            for (const lumping::LumpedTerm& term : lumping_.equations[e].terms) {
+                for (const auto& [unknown, factor] : term.unknown) row.terms.push_back(row_term(e, row.p, term.term, unknown, factor, weights[r], tape));
+                if (!cln::zerop(term.known)) known.push_back(row_term(e, row.p, term.term, -1, -term.known, weights[r], tape));
+            }
+            std::stable_sort(row.terms.begin(), row.terms.end(), [](const plan::RowTerm& a, const plan::RowTerm& b) { return a.lumped < b.lumped; });
+            row.terms.insert(row.terms.end(), known.begin(), known.end());
+            plan_.rows.push_back(row);
+        }
+        plan_.signals = tape.finish();
+    }
+
+    plan::RowTerm row_term(std::size_t e, int p, int term, int unknown, const Rational& coefficient, const Rational& weight, TapeBuilder& tape) {
+        const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term)].product;
+        const int derivative = forms_[e].order(product);
+        const annihilator::Orders orders{forms_[e].n, model_.equations[e].kappa};
+        const kernel::Coefficients k = annihilator::kernel(derivative, p, orders);
+        plan::RowTerm out;
+        out.lumped = unknown;
+        out.derivative = derivative;
+        out.coefficient = exact::text(coefficient);
+        for (const Rational& c : k) out.kernel.push_back(exact::text(c * coefficient));
+        Rational factor = coefficient * exact::power(*model_.window, -derivative) * weight;
+        if (product.empty()) {
+            out.signal = -1;
+            out.table = -1;
+            factor = factor * kernel::integral(k, plan_.intervals, plan::Hold::linear, plan_.quadrature);
+        } else {
+            out.signal = window_signal(e, product, tape);
+            out.table = table(e, derivative, p, plan_.window_signals[static_cast<std::size_t>(out.signal)].hold);
+        }
+        out.factor = exact::nearest(factor, plan_.scalar);
+        return out;
+    }
+
+    void unknowns_and_parameters() {
+        std::vector<std::string> parameters;
+        for (const model::Parameter& p : model_.parameters) parameters.push_back(p.name);
+        std::vector<std::string> unknowns;
+        for (const lumping::Unknown& u : lumping_.unknowns) {
+            unknowns.push_back(u.name);
+            plan_.lumped.push_back({u.name, text(u.meaning, parameters)});
+        }
+        std::vector<int> none;
+        TapeBuilder map(model_, plan_.scalar, none);
+        for (std::size_t k = 0; k < model_.parameters.size(); ++k) {
+            const model::Parameter& p = model_.parameters[k];
+            if (!lumping_.inverse[k]) continue;
+            plan_.parameters.push_back({p.name, p.unit, text(*lumping_.inverse[k], unknowns), p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0});
+            map.result(map.quotient(*lumping_.inverse[k]));
+        }
+        plan_.parameter_map = map.finish();
+    }
+
+    void solver() {
+        const model::Estimator& e = model_.estimator;
+        plan_.solve = e.solve == model::Solver::robust          ? algest::Solve::robust
+                      : e.solve == model::Solver::least_squares ? algest::Solve::least_squares
+                                                                : algest::Solve::square;
+        plan_.solve_instants = 0;
+        if (plan_.solve == algest::Solve::robust) {
+            const Rational window = e.solve_window.value_or(*model_.window);
+            if (!e.solve_window) plan_.notes.push_back("no solve_window: S(t) runs over one window");
+            plan_.solve_instants = cln::cl_I_to_int(cln::floor1(window / *model_.period)) + 1;
+        }
+        plan_.keep = e.forgetting == 1 ? 1.0 : exact::nearest(*exact::function_value("sqrt", e.forgetting), plan_.scalar);
+        plan_.condition_limit = e.condition_limit ? exact::nearest(*e.condition_limit, plan_.scalar)
+                                : plan_.scalar == plan::Scalar::float64 ? algest::default_condition_limit<double>()
+                                                                        : static_cast<double>(algest::default_condition_limit<float>());
+    }
+
+    const model::Model& model_;
+    const PlanOptions& options_;
+    Diagnostics& diagnostics_;
+    std::vector<OperatorForm> forms_;
+    lumping::Lumping lumping_;
+    std::vector<ChosenRow> rows_;
+    std::vector<int> equation_index_;
+    std::vector<int> input_of_signal_;
+    plan::Plan plan_;
+};
+
+}  // namespace
+
+bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics) {
+    const auto model = model::read(path, strict, diagnostics);
+    if (!model) return false;
+    const auto forms = Planner::operator_forms(*model, diagnostics);
+    if (!forms) return false;
+    const auto lumping = lumping::lump(*model, *forms, diagnostics);
+    if (lumping && !model->parameters.empty()) (void)choose_rows(*model, *lumping, diagnostics);
+    return !diagnostics.failed();
+}
+
+std::optional<plan::Plan> plan_from_model(const std::string& path, const PlanOptions& options, Diagnostics& diagnostics) {
+    const auto model = model::read(path, false, diagnostics);
+    if (!model) return std::nullopt;
+    auto plan = Planner(*model, options, diagnostics).run();
+    if (plan) for (const std::string& note : plan->notes) diagnostics.note(path, note);
+    return diagnostics.failed() ? std::nullopt : plan;
+}
+
+}  // namespace algest::generator

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/plan_hash.hpp"
+
+#include <bit>
+
+namespace algest::generator {
+
+namespace {
+
+class Hash {
+public:
+    void add(std::uint64_t value) {
+        for (int byte = 0; byte < 8; ++byte) {
+            state_ ^= (value >> (8 * byte)) & 0xFFU;
+            state_ *= 0x100000001B3ULL;   // FNV-1a, 64 bits
+        }
+    }
+    void add(int value) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
+    void add(bool value) { add(value ? 1 : 0); }
+    void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+    void add(const std::string& text) {
+        add(static_cast<std::uint64_t>(text.size()));
+        for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+    }
+    void add(const plan::Tape& tape) {
+        add(static_cast<std::uint64_t>(tape.operations.size()));
+        for (const plan::Operation& o : tape.operations) {
+            add(static_cast<int>(o.op));
+            add(o.a);
+            add(o.b);
+            add(o.value);
+        }
+        for (const int r : tape.results) add(r);
+    }
+
+    std::string text() const {
+        std::string out;
+        for (int shift = 60; shift >= 0; shift -= 4) out += "0123456789abcdef"[(state_ >> shift) & 0xFU];
+        return out;
+    }
+
+private:
+    std::uint64_t state_ = 0xCBF29CE484222325ULL;
+};
+
+}  // namespace
+
+std::string plan_hash(const plan::Plan& plan) {
+    Hash hash;
+    hash.add(plan.name);
+    hash.add(static_cast<int>(plan.scalar));
+    hash.add(plan.period_text);
+    hash.add(plan.intervals);
+    hash.add(static_cast<int>(plan.quadrature));
+    for (const plan::Input& i : plan.inputs) {
+        hash.add(i.name);
+        hash.add(i.unit);
+        hash.add(i.min);
+        hash.add(i.max);
+        hash.add(i.differentiated);
+    }
+    for (const plan::WindowSignal& s : plan.window_signals) {
+        hash.add(s.text);
+        hash.add(static_cast<int>(s.hold));
+        hash.add(s.delayed);
+    }
+    hash.add(plan.signals);
+    for (const plan::Table& t : plan.tables) {
+        hash.add(t.name);
+        for (const std::string& c : t.kernel) hash.add(c);
+        for (const double w : t.weights) hash.add(w);
+    }
+    for (const plan::Row& row : plan.rows) {
+        hash.add(row.equation);
+        hash.add(row.p);
+        for (const plan::RowTerm& t : row.terms) {
+            hash.add(t.lumped);
+            hash.add(t.signal);
+            hash.add(t.table);
+            hash.add(t.factor);
+        }
+    }
+    for (const plan::Parameter& p : plan.parameters) {
+        hash.add(p.name);
+        hash.add(p.unit);
+        hash.add(p.initial);
+    }
+    hash.add(plan.parameter_map);
+    hash.add(static_cast<int>(plan.solve));
+    hash.add(plan.solve_instants);
+    hash.add(plan.keep);
+    hash.add(plan.condition_limit);
+    return hash.text();
+}
+
+}  // namespace algest::generator

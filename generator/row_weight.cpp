@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/row_weight.hpp"
+
+#include <algorithm>
+
+#include "generator/annihilator.hpp"
+#include "generator/dimension.hpp"
+#include "generator/kernel.hpp"
+
+namespace algest::generator {
+
+namespace {
+
+using exact::Rational;
+
+/// Value of a polynomial at the parameters' initial values; nullopt where one is needed and missing.
+std::optional<Rational> at_initial(const Polynomial& p, const model::Model& model) {
+    Rational out = 0;
+    for (const auto& [exponents, coefficient] : p) {
+        Rational term = coefficient;
+        for (std::size_t k = 0; k < exponents.size(); ++k) {
+            if (exponents[k] == 0) continue;
+            if (!model.parameters[k].initial) return std::nullopt;
+            term = term * exact::power(*model.parameters[k].initial, exponents[k]);
+        }
+        out = out + term;
+    }
+    return out;
+}
+
+/// Standard deviation of the residual's largest part, in the unit of the equation as the rows use it.
+std::optional<Rational> noise_of(const model::Model& model, const equation::OperatorForm& form, const lumping::LumpedEquation& lumped) {
+    if (form.leading < 0) return std::nullopt;
+    const equation::Term& term = form.terms[static_cast<std::size_t>(form.leading)];
+    const model::Signal& signal = model.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(term.product[0].atom)].signal)];
+    if (!signal.noise || cln::zerop(*signal.noise)) return std::nullopt;
+    const auto coefficient = lumped.divided ? std::optional<Rational>(1) : at_initial(term.coefficient, model);
+    if (!coefficient || cln::zerop(*coefficient)) return std::nullopt;
+    return *signal.noise * cln::abs(*coefficient) * exact::power(*model.window, -form.n);
+}
+
+/// The unit of the equation's rows: divided, it is that of its highest derivative.
+units::Unit unit_of_rows(const model::Model& model, std::size_t e, const equation::OperatorForm& form, const lumping::LumpedEquation& lumped) {
+    if (!lumped.divided) return model::unit_of_equation(model, model.equations[e]);
+    const equation::Term& term = form.terms[static_cast<std::size_t>(form.leading)];
+    const std::string& unit = model.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(term.product[0].atom)].signal)].unit;
+    return unit.empty() ? units::Unit() : units::Unit::parse(unit)->over(units::Unit::parse("s")->power(form.n));
+}
+
+}  // namespace
+
+std::optional<RowWeights> row_weights(const model::Model& model, const std::vector<equation::OperatorForm>& forms,
+                                      const lumping::Lumping& lumping, const std::vector<ChosenRow>& rows, Diagnostics& diagnostics) {
+    if (model.estimator.solve == model::Solver::square && rows.size() == lumping.unknowns.size()) return RowWeights(rows.size(), 1);
+
+    const std::size_t equations = model.equations.size();
+    std::vector<Rational> size(equations, 1);
+    for (std::size_t e = 0; e < equations; ++e) {
+        if (!lumping.equations[e].used) continue;
+        std::vector<std::size_t> group;
+        for (std::size_t other = 0; other < equations; ++other) {
+            if (lumping.equations[other].used && lumping.equations[other].component == lumping.equations[e].component) group.push_back(other);
+        }
+        bool mixed = false;
+        bool all_noisy = true;
+        bool all_scaled = true;
+        for (const std::size_t other : group) {
+            const units::Unit mine = unit_of_rows(model, e, forms[e], lumping.equations[e]);
+            const units::Unit theirs = unit_of_rows(model, other, forms[other], lumping.equations[other]);
+            mixed = mixed || (mine.known() && theirs.known() && !mine.same_dimension(theirs));
+            all_noisy = all_noisy && noise_of(model, forms[other], lumping.equations[other]).has_value();
+            all_scaled = all_scaled && model.equations[other].scale.has_value();
+        }
+        if (group.size() == 1) continue;
+        if (all_noisy) {
+            size[e] = *noise_of(model, forms[e], lumping.equations[e]);
+        } else if (all_scaled) {
+            size[e] = *model.equations[e].scale;
+        } else if (mixed) {
+            diagnostics.error(model.path, model.equations[e].at, "equation '" + model.equations[e].name + "' is pooled with equations of other units, and nothing says how they compare",
+                              "declare noise = ... for the signals with the highest derivatives, or scale = ... in each equation");
+            return std::nullopt;
+        }
+    }
+    RowWeights out;
+    for (const ChosenRow& row : rows) {
+        const std::size_t e = static_cast<std::size_t>(row.equation);
+        const Rational norm2 = kernel::square_norm(annihilator::kernel(forms[e].n, row.p, {forms[e].n, model.equations[e].kappa}));
+        out.push_back(1 / exact::power_of_two_near_root(norm2 * size[e] * size[e]));
+    }
+    return out;
+}
+
+}  // namespace algest::generator

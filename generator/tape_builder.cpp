@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/tape_builder.hpp"
+
+#include <optional>
+#include <stdexcept>
+
+namespace algest {
+
+using exact::Rational;
+using formula::Kind;
+using plan::Op;
+
+namespace {
+
+std::optional<Rational> folded(Op op, const Rational& a, const Rational& b) {
+    switch (op) {
+        case Op::neg: return -a;
+        case Op::add: return a + b;
+        case Op::sub: return a - b;
+        case Op::mul: return a * b;
+        case Op::div: return cln::zerop(b) ? std::nullopt : std::optional<Rational>(a / b);
+        case Op::abs: return cln::abs(a);
+        case Op::sgn: return cln::signum(a);
+        case Op::min: return cln::min(a, b);
+        case Op::max: return cln::max(a, b);
+        case Op::sqrt: return exact::function_value("sqrt", a);
+        case Op::exp: return exact::function_value("exp", a);
+        case Op::log: return exact::function_value("log", a);
+        case Op::sin: return exact::function_value("sin", a);
+        case Op::cos: return exact::function_value("cos", a);
+        case Op::tan: return exact::function_value("tan", a);
+        case Op::pow: return cln::plusp(a) ? exact::real_power(a, b) : std::nullopt;
+        default: return std::nullopt;
+    }
+}
+
+Op op_of_function(const std::string& name) {
+    static const std::map<std::string, Op> ops = {{"sin", Op::sin}, {"cos", Op::cos}, {"tan", Op::tan}, {"exp", Op::exp}, {"log", Op::log},
+                                                  {"sqrt", Op::sqrt}, {"abs", Op::abs}, {"sgn", Op::sgn}, {"min", Op::min}, {"max", Op::max}};
+    return ops.at(name);
+}
+
+bool reads_input(Op op) { return op == Op::input || op == Op::previous || op == Op::derivative; }
+
+}  // namespace
+
+int TapeBuilder::constant(const Rational& value) {
+    for (const auto& [v, k] : constants_) if (v == value) return k;
+    entries_.push_back({Op::constant, -1, -1, value});
+    constants_.emplace_back(value, static_cast<int>(entries_.size()) - 1);
+    return constants_.back().second;
+}
+
+int TapeBuilder::add(Op op, int a, int b) {
+    if (!reads_input(op) && is_constant(a) && (b < 0 || is_constant(b))) {
+        if (const auto value_now = folded(op, value(a), b < 0 ? Rational(0) : value(b))) return constant(*value_now);
+    }
+    if (op == Op::mul && is_constant(a) && value(a) == 1) return b;
+    if ((op == Op::mul || op == Op::div) && is_constant(b) && value(b) == 1) return a;
+    const auto key = std::make_tuple(op, a, b);
+    const auto found = known_.find(key);
+    if (found != known_.end()) return found->second;
+    entries_.push_back({op, a, b, 0});
+    return known_[key] = static_cast<int>(entries_.size()) - 1;
+}
+
+int TapeBuilder::power(int base, int exponent) {
+    if (exponent == 0) return constant(1);
+    if (exponent < 0) return add(Op::div, constant(1), power(base, -exponent));
+    int out = -1;
+    int square = base;
+    for (int rest = exponent; rest > 0; rest /= 2) {
+        if (rest % 2 == 1) out = out < 0 ? square : add(Op::mul, out, square);
+        if (rest > 1) square = add(Op::mul, square, square);
+    }
+    return out;
+}
+
+int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
+    switch (f->kind) {
+        case Kind::number: return constant(f->value);
+        case Kind::name: {
+            if (const model::Constant* c = model_.constant(f->name)) return constant(c->value);
+            const int signal = model_.signal_index(f->name);
+            if (signal < 0) throw std::logic_error("a parameter inside a signal: " + f->name);
+            return add(delayed ? Op::previous : Op::input, input_of_signal_[static_cast<std::size_t>(signal)]);
+        }
+        case Kind::negate: return add(Op::neg, formula(f->arguments[0], delayed));
+        case Kind::call: {
+            if (f->name == "der") {
+                const int signal = model_.signal_index(f->arguments[0]->name);
+                return add(Op::derivative, input_of_signal_[static_cast<std::size_t>(signal)]);
+            }
+            const int a = formula(f->arguments[0], delayed);
+            return add(op_of_function(f->name), a, f->arguments.size() > 1 ? formula(f->arguments[1], delayed) : -1);
+        }
+        case Kind::power: {
+            const int base = formula(f->arguments[0], delayed);
+            const int exponent = formula(f->arguments[1], delayed);
+            if (is_constant(exponent) && exact::is_integer(value(exponent)) && cln::abs(value(exponent)) <= formula::largest_exponent) {
+                return power(base, cln::cl_I_to_int(cln::numerator(value(exponent))));
+            }
+            if (is_constant(exponent) && value(exponent) == Rational(1) / 2) return add(Op::sqrt, base);
+            return add(Op::pow, base, exponent);
+        }
+        case Kind::add:
+        case Kind::subtract:
+        case Kind::multiply:
+        case Kind::divide: {
+            const int a = formula(f->arguments[0], delayed);
+            const int b = formula(f->arguments[1], delayed);
+            return add(f->kind == Kind::add ? Op::add : f->kind == Kind::subtract ? Op::sub : f->kind == Kind::multiply ? Op::mul : Op::div, a, b);
+        }
+    }
+    throw std::logic_error("a formula of no kind");
+}
+
+int TapeBuilder::product(const equation::OperatorForm& form, const equation::Product& product, bool delayed) {
+    int above = constant(1);
+    int below = constant(1);
+    for (const equation::Factor& factor : product) {
+        const int atom = formula(form.atoms[static_cast<std::size_t>(factor.atom)].formula, delayed);
+        int& side = factor.power > 0 ? above : below;
+        side = add(Op::mul, side, power(atom, std::abs(factor.power)));
+    }
+    return add(Op::div, above, below);
+}
+
+int TapeBuilder::polynomial(const Polynomial& p) {
+    int out = -1;
+    for (const auto& [exponents, coefficient] : p) {
+        int term = constant(cln::abs(coefficient));
+        for (std::size_t k = 0; k < exponents.size(); ++k) {
+            if (exponents[k] != 0) term = add(Op::mul, term, power(add(Op::input, static_cast<int>(k)), exponents[k]));
+        }
+        const bool negative = cln::minusp(coefficient);
+        if (out < 0) out = negative ? add(Op::neg, term) : term;
+        else out = add(negative ? Op::sub : Op::add, out, term);
+    }
+    return out < 0 ? constant(0) : out;
+}
+
+int TapeBuilder::quotient(const Quotient& q) { 
+    const int above = polynomial(q.numerator);
+    return add(Op::div, above, polynomial(q.denominator));
+}
+
+plan::Tape TapeBuilder::finish() const {
+    std::vector<bool> needed(entries_.size(), false);
+    for (const int r : results_) needed[static_cast<std::size_t>(r)] = true;
+    for (std::size_t k = entries_.size(); k-- > 0;) {
+        if (!needed[k] || reads_input(entries_[k].op)) continue;
+        if (entries_[k].a >= 0) needed[static_cast<std::size_t>(entries_[k].a)] = true;
+        if (entries_[k].b >= 0) needed[static_cast<std::size_t>(entries_[k].b)] = true;
+    }
+    plan::Tape out;
+    std::vector<int> place(entries_.size(), -1);
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+        if (!needed[k]) continue;
+        const Entry& e = entries_[k];
+        const auto moved = [&](int index) { return index < 0 || reads_input(e.op) ? index : place[static_cast<std::size_t>(index)]; };
+        place[k] = static_cast<int>(out.operations.size());
+        out.operations.push_back({e.op, moved(e.a), moved(e.b), e.op == Op::constant ? exact::nearest(e.value, scalar_) : 0.0});
+    }
+    for (const int r : results_) out.results.push_back(place[static_cast<std::size_t>(r)]);
+    return out;
+}
+
+}  // namespace algest

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Formulas, signal products and quotients of polynomials -> operations of a tape: equal ones once, constants folded exactly.
+#pragma once
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "generator/equation.hpp"
+#include "generator/tape.hpp"
+
+namespace algest {
+
+class TapeBuilder {
+public:
+    TapeBuilder(const model::Model& model, plan::Scalar scalar, std::vector<int> input_of_signal)
+        : model_(model), scalar_(scalar), input_of_signal_(std::move(input_of_signal)) {}
+
+    /// A product of atoms. delayed: every signal one sample late, derivatives by the parabola filter.
+    int product(const equation::OperatorForm& form, const equation::Product& product, bool delayed);
+
+    /// A quotient of polynomials in the tape's inputs 0, 1, ...
+    int quotient(const Quotient& q);
+
+    void result(int operation) { results_.push_back(operation); }
+
+    /// The finished tape, without operations that no result needs.
+    plan::Tape finish() const;
+
+private:
+    struct Entry {
+        plan::Op op;
+        int a;
+        int b;
+        exact::Rational value;
+    };
+    int add(plan::Op op, int a = -1, int b = -1);
+    int constant(const exact::Rational& value);
+    int power(int base, int exponent);
+    int formula(const formula::Formula& f, bool delayed);
+    int polynomial(const Polynomial& p);
+    bool is_constant(int k) const { return entries_[static_cast<std::size_t>(k)].op == plan::Op::constant; }
+    const exact::Rational& value(int k) const { return entries_[static_cast<std::size_t>(k)].value; }
+
+    const model::Model& model_;
+    plan::Scalar scalar_;
+    std::vector<int> input_of_signal_;
+    std::vector<Entry> entries_;
+    std::map<std::tuple<plan::Op, int, int>, int> known_;
+    std::vector<std::pair<exact::Rational, int>> constants_;
+    std::vector<int> results_;
+};
+
+}  // namespace algest

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT-0
+// Least squares over all rows since reset: an upper triangle [R|z] that Givens rotations keep, with optional forgetting.
+#pragma once
+#include <cmath>
+#include <limits>
+
+#include "algest/arithmetic.hpp"
+#include "algest/packed.hpp"
+#include "algest/triangular.hpp"
+
+namespace algest {
+
+/// Scalars that the triangle of `unknowns` unknowns takes: the packed triangle of [R|z] and the root of the residual sum.
+constexpr int triangle_scalars(int unknowns) noexcept { return packed_size(unknowns + 1); }
+
+/// Rotates one instant's rows (rows x (unknowns+1), destroyed) into the triangle. `keep` multiplies the old triangle
+/// first: 1 keeps every row for good, sqrt(lambda) forgets with factor lambda an instant.
+/// Cost: about 3 rows (unknowns+1)^2 operations and rows (unknowns+1) square roots. Never fails.
+template <class S>
+inline void add_rows(S* triangle, S* matrix, int rows, int unknowns, S keep) noexcept {
+    const int width = unknowns + 1;
+    if (keep != S(1)) {
+        for (int k = 0; k < packed_size(width); ++k) triangle[k] *= keep;
+    }
+    for (int r = 0; r < rows; ++r) {
+        S* row = matrix + r * width;
+        for (int i = 0; i < width; ++i) {
+            S* pivot_row = triangle + packed_index(width, i, i);
+            const S length = std::sqrt(pivot_row[0] * pivot_row[0] + row[i] * row[i]);
+            if (!(length > S(0))) continue;
+            const S c = pivot_row[0] / length;
+            const S s = row[i] / length;
+            pivot_row[0] = length;
+            for (int j = i + 1; j < width; ++j) {
+                const S above = pivot_row[j - i];
+                pivot_row[j - i] = c * above + s * row[j];
+                row[j] = c * row[j] - s * above;
+            }
+        }
+    }
+}
+
+/// Scalars of scratch that solve_triangle needs.
+constexpr int solve_triangle_scratch(int unknowns) noexcept { return unknowns * (unknowns + 1) + 3 * unknowns; }
+
+/// Solves R theta = z after scaling the columns of R to norm 1. Rank test: a diagonal entry at or below
+/// unknowns * epsilon. On `regular == false` the solution is untouched. Cost: unknowns^3 / 3 operations.
+template <class S>
+inline Solved<S> solve_triangle(const S* triangle, int unknowns, S* scratch, S* solution) noexcept {
+    const int n = unknowns;
+    const int width = n + 1;
+    const Solved<S> singular = {false, std::numeric_limits<S>::infinity()};
+    S* upper = scratch;
+    S* scale = scratch + n * width;
+    S* x = scale + n;
+    S* work = x + n;
+    for (int j = 0; j < n; ++j) {
+        S sum = S(0);
+        for (int i = 0; i <= j; ++i) {
+            const S entry = triangle[packed_index(width, i, j)];
+            sum += entry * entry;
+        }
+        if (!(sum > S(0)) || !std::isfinite(sum)) return singular;
+        scale[j] = std::sqrt(sum);
+        for (int i = 0; i <= j; ++i) upper[i * width + j] = triangle[packed_index(width, i, j)] / scale[j];
+        if (!(std::abs(upper[j * width + j]) > smallest_pivot<S>(n))) return singular;
+    }
+    for (int i = 0; i < n; ++i) upper[i * width + n] = triangle[packed_index(width, i, n)];
+    const S condition = condition_of_upper(upper, n, width, work);
+    back_substitute(upper, n, width, x);
+    if (!all_finite(x, n)) return singular;
+    for (int j = 0; j < n; ++j) solution[j] = x[j] / scale[j];
+    return {true, condition};
+}
+
+}  // namespace algest
