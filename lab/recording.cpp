@@ -194,7 +194,7 @@ private:
     void check_time() {
         const std::vector<double>& t = recording_.columns[*time_].values;
         if (t.size() < 2) {
-            complaints_.error({lines_.number() + 1, 1},
+            complaints_.error({lines_.number(), 1},
                               t.empty() ? "there are no rows after the header" : "there is only one row",
                               "one row a sample, two or more");
             return;

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The contract of the command line: exit codes, what goes to which stream, JSON, files."""
+import os
+import pty
+import re
+import subprocess
+import unittest
+
+from command_line import L, R, RL_CIRCUIT, CommandLine, coil_rows, csv
+from environment import ALGEST
+
+
+class Parsing(CommandLine):
+    def test_help_and_version(self):
+        out, err = self.algest("--help")
+        for command in ("check", "derive", "generate", "replay"):
+            self.assertRegex(out, rf"(?m)^  {command}\b")
+        self.assertEqual(err, "")
+        out, _ = self.algest("--version")
+        self.assertRegex(out, r"^algest \d+\.\d+\.\d+\n$")
+
+    def test_every_command_shows_examples_that_parse(self):
+        for command in ("check", "derive", "generate", "replay"):
+            out, _ = self.algest(command, "--help")
+            examples = re.findall(rf"(?m)^  algest ({command} .*)$", out)
+            self.assertGreaterEqual(len(examples), 2, out)
+            for example in examples:     # the files do not exist here: what is complained of must be they
+                words = example.split(" > ")[0].split()
+                _, err = self.algest(*words, exit_code=2)
+                self.assertNotIn("--help", err, example)
+
+    def test_what_cannot_be_parsed_is_bad_input(self):
+        for words in ([], ["nonsense"], ["check"], ["replay", "rl.toml"], ["check", "rl.toml", "--nonsense"],
+                      ["generate", "rl.toml", "--scalar", "half"], ["generate", "rl.toml", "--engine", "steam"],
+                      ["derive", "rl.toml", "--format", "pdf"], ["derive", "rl.toml", "two.toml"],
+                      ["replay", "rl.toml", "coil.csv", "--from", "soon"]):
+            out, err = self.algest(*words, exit_code=2)
+            self.assertEqual(out, "")
+            self.assertRegex(err, r"^algest: error: .*--help")
+            self.assertEqual(list(self.algest_json(*words, exit_code=2)), ["error"])
+        self.assertEqual(self.files(), ["coil.csv", "rl.toml"])
+
+    def test_output_that_cannot_be_written_is_an_error(self):
+        with open("/dev/full", "wb") as full:
+            result = subprocess.run([ALGEST, "derive", "rl.toml"], cwd=self.folder, stdout=full, stderr=subprocess.PIPE)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(b"standard output", result.stderr)
+
+    def test_colour_is_for_terminals_alone(self):
+        self.assertNotIn("\x1b", self.algest("check", "nothing.toml", exit_code=2)[1])
+        for no_colour, expected in ((None, True), ("1", False)):
+            environment = {k: v for k, v in os.environ.items() if k != "NO_COLOR"}
+            if no_colour:
+                environment["NO_COLOR"] = no_colour
+            ours, theirs = pty.openpty()
+            subprocess.run([ALGEST, "check", "nothing.toml"], cwd=self.folder, stderr=theirs, env=environment)
+            os.close(theirs)
+            self.assertEqual(b"\x1b[" in os.read(ours, 10000), expected)
+            os.close(ours)
+
+
+class Check(CommandLine):
+    def test_a_sound_model(self):
+        out, err = self.algest("check", "rl.toml")
+        self.assertEqual(out, "rl.toml: ok\n")
+        self.assertEqual(err, "")
+        self.assertEqual(self.algest_json("check", "rl.toml"), {"models": [{"model": "rl.toml", "ok": True, "warnings": []}]})
+
+    def test_all_models_are_checked_and_the_worst_counts(self):
+        self.write("broken.toml", RL_CIRCUIT.replace("u - R*i", "u - R*("))
+        out, err = self.algest("check", "broken.toml", "rl.toml", exit_code=2)
+        self.assertEqual(out, "rl.toml: ok\n")
+        line = RL_CIRCUIT.splitlines().index('ode = "L*der(i) = u - R*i"') + 1
+        self.assertRegex(err, rf"(?m)^broken\.toml:{line}:\d+: error: [^;]+; .+$")
+        value = self.algest_json("check", "rl.toml", "broken.toml", exit_code=2)
+        self.assertEqual([m["ok"] for m in value["models"]], [True, False])
+        self.assertEqual([(e["file"], e["line"], e["severity"]) for e in value["error"]], [("broken.toml", line, "error")])
+
+    def test_a_missing_unit_is_a_warning_and_with_strict_an_error(self):
+        self.write("no_unit.toml", RL_CIRCUIT.replace('i = { unit = "A" }', "i = {}"))
+        out, err = self.algest("check", "no_unit.toml")
+        self.assertEqual(out, "no_unit.toml: ok\n")
+        self.assertIn("warning", err)
+        self.assertIn("error", self.algest("check", "no_unit.toml", "--strict", exit_code=2)[1])
+
+    def test_a_parameter_that_no_row_sees_is_answered_with_no(self):
+        # kappa = 1 annihilates the constant that c adds
+        self.write("blind.toml", RL_CIRCUIT.replace("u - R*i", "u - R*i - c").replace(
+            "[[equation]]", 'c = { unit = "V" }\n\n[[equation]]') + "kappa = 1\n")
+        _, err = self.algest("check", "blind.toml", exit_code=1)
+        self.assertRegex(err, r"blind\.toml:\d+:\d+: not identifiable: ")
+        self.assertEqual(self.algest_json("check", "blind.toml", exit_code=1)["error"][0]["severity"], "not identifiable")
+        self.algest("check", "blind.toml", "nothing.toml", exit_code=2)
+
+
+class Derive(CommandLine):
+    def test_formats(self):
+        text, _ = self.algest("derive", "rl.toml")
+        self.assertIn("coil", text)
+        latex, _ = self.algest("derive", "rl.toml", "--format", "latex")
+        self.assertIn("\\", latex)
+        value = self.algest_json("derive", "rl.toml")
+        self.assertEqual(value["name"], "rl")
+        self.assertEqual([p["name"] for p in value["parameters"]], ["R", "L"])
+        terms = [t for e in value["equations"] for r in e["rows"] for t in r["terms"]]
+        self.assertFalse(any("weights" in t for t in terms))
+        value = self.algest_json("derive", "rl.toml", "--weights")
+        terms = [t for e in value["equations"] for r in e["rows"] for t in r["terms"]]
+        self.assertTrue(all(len(t["weights"]) == 51 for t in terms))     # 0.05 s at 1 ms
+
+
+class Generate(CommandLine):
+    FILES = ["rl/rl.hpp", "rl/rl.md", "rl/rl_tables.hpp"]
+
+    def test_writes_into_generated_unless_told_otherwise(self):
+        out, err = self.algest("generate", "rl.toml")
+        self.assertEqual(out, "")
+        self.assertEqual(self.files(), ["coil.csv"] + [f"generated/{f}" for f in self.FILES] + ["rl.toml"])
+        for file in self.FILES:
+            self.assertIn(f"wrote generated/{file}\n", err)
+        value = self.algest_json("generate", "rl.toml", "-o", "a/b")
+        self.assertEqual(sorted(value["models"][0]["written"]), [f"a/b/{f}" for f in self.FILES])
+        self.assertEqual((value["models"][0]["model"], value["models"][0]["name"]), ("rl.toml", "rl"))
+        for file in self.FILES:
+            self.assertEqual((self.folder / "generated" / file).read_bytes(), (self.folder / "a/b" / file).read_bytes())
+
+    def test_check_writes_nothing_and_shows_the_difference(self):
+        out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
+        self.assertIn("rl.hpp", out)
+        self.assertEqual(self.files(), ["coil.csv", "rl.toml"])
+
+        self.algest("generate", "rl.toml")
+        self.assertEqual(self.algest("generate", "rl.toml", "--check")[0], "")
+        self.assertEqual(self.algest_json("generate", "rl.toml", "--check")["models"][0]["differences"], [])
+
+        header = self.folder / "generated/rl/rl.hpp"
+        before = header.read_text()
+        header.write_text(before + "// an edit\n")
+        out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
+        self.assertIn("-// an edit", out)
+        self.assertEqual(header.read_text(), before + "// an edit\n")
+        value = self.algest_json("generate", "rl.toml", "--check", exit_code=1)
+        self.assertEqual([d["path"] for d in value["models"][0]["differences"]], ["generated/rl/rl.hpp"])
+
+    def test_options_reach_the_estimator(self):
+        self.algest("generate", "rl.toml", "--scalar", "float")
+        self.assertIn("float", (self.folder / "generated/rl/rl.hpp").read_text())
+        self.algest("generate", "rl.toml", "--check", "--scalar", "double", exit_code=1)
+
+    def test_a_model_that_fails_leaves_nothing_and_the_others_are_written(self):
+        self.write("broken.toml", RL_CIRCUIT.replace('"rl"', '"broken"').replace("u - R*i", "u - R*("))
+        self.algest("generate", "broken.toml", "rl.toml", exit_code=2)
+        self.assertEqual(self.files(), ["broken.toml", "coil.csv"] + [f"generated/{f}" for f in self.FILES] + ["rl.toml"])
+
+    def test_two_models_of_one_name_are_refused(self):
+        self.write("again.toml", RL_CIRCUIT)
+        _, err = self.algest("generate", "rl.toml", "again.toml", exit_code=2)
+        self.assertRegex(err, r"again\.toml: error: .*`rl`.*rl\.toml")
+        self.assertEqual(self.files(), ["again.toml", "coil.csv", "rl.toml"])
+
+    def test_a_folder_that_cannot_be_written_leaves_nothing(self):
+        self.write("taken", "a file where the folder should be")
+        _, err = self.algest("generate", "rl.toml", "-o", "taken", exit_code=2)
+        self.assertIn("taken", err)
+        (self.folder / "out/rl/rl.md").mkdir(parents=True)
+        self.algest("generate", "rl.toml", "-o", "out", exit_code=2)
+        self.assertEqual(self.files(), ["coil.csv", "rl.toml", "taken"])
+
+
+class Replay(CommandLine):
+    def test_json(self):
+        value = self.algest_json("replay", "rl.toml", "coil.csv")
+        self.assertEqual(list(value), ["model", "recording", "samples", "period_s", "parameters", "status", "condition"])
+        self.assertEqual((value["model"], value["recording"]), ("rl.toml", "coil.csv"))
+        self.assertEqual((value["samples"], value["period_s"]), (200, 0.001))
+        self.assertEqual(value["status"], {"filling": 50, "ok": 150, "singular": 0, "rejected": 0})   # 51 samples fill 0.05 s
+        for parameter, (name, unit, true_value) in zip(value["parameters"], (("R", "ohm", R), ("L", "H", L))):
+            self.assertEqual(list(parameter), ["name", "unit", "last", "median", "sd"])
+            self.assertEqual((parameter["name"], parameter["unit"], parameter["sd"]), (name, unit, None))
+            self.assertAlmostEqual(parameter["last"] / true_value, 1, delta=1e-3)
+            self.assertAlmostEqual(parameter["median"] / true_value, 1, delta=1e-3)
+        self.assertGreaterEqual(value["condition"]["last"], 1)
+
+    def test_text_for_people_has_the_units(self):
+        out, _ = self.algest("replay", "rl.toml", "coil.csv")
+        self.assertRegex(out, r"(?m)^R +[0-9.]+ +[0-9.]+  ohm$")
+        self.assertRegex(out, r"(?m)^L +[0-9.]+ +[0-9.]+  H$")
+        self.assertIn("filling 50, ok 150, singular 0, rejected 0", out)
+
+    def test_csv(self):
+        out, err = self.algest("replay", "rl.toml", "coil.csv", "-o", "e.csv")
+        self.assertIn("wrote e.csv", err)
+        lines = (self.folder / "e.csv").read_text().splitlines()
+        self.assertEqual(lines[0], "t [s],status,condition,R [ohm],L [H]")
+        self.assertEqual(len(lines), 201)
+        self.assertEqual(lines[1], "0,filling,,1,1")
+        self.assertTrue(lines[51].startswith("0.05,ok,"))
+        value = self.algest_json("replay", "rl.toml", "coil.csv")
+        last = lines[-1].split(",")
+        self.assertEqual([float(last[3]), float(last[4])], [p["last"] for p in value["parameters"]])
+        self.assertEqual(float(last[2]), value["condition"]["last"])
+
+    def test_a_stretch(self):
+        value = self.algest_json("replay", "rl.toml", "coil.csv", "--from", "0.1", "--to", "0.16")
+        self.assertEqual(value["samples"], 61)
+        self.assertEqual(value["status"]["ok"], 11)
+        self.algest("replay", "rl.toml", "coil.csv", "--from", "-5", "--to", "1e9")
+        for stretch in (["--from", "0.16", "--to", "0.1"], ["--from", "5"], ["--to", "0.02"], ["--from", "nan"]):
+            _, err = self.algest("replay", "rl.toml", "coil.csv", "-o", "e.csv", *stretch, exit_code=2)
+            self.assertIn("--from", err)
+        self.assertEqual(self.files(), ["coil.csv", "rl.toml"])
+
+    def test_other_units_and_columns_make_no_difference(self):
+        expected = self.algest_json("replay", "rl.toml", "coil.csv")
+        rows = [(i * 1000, 0, t * 1000, u / 1000) for t, u, i in coil_rows(200)]
+        self.write("other.csv", b"\xef\xbb\xbf" + csv(rows, "i [mA],x [counts; 8192 per rev],t [ms],u [kV]", "\r\n").encode())
+        found = self.algest_json("replay", "rl.toml", "other.csv")
+        for a, b in zip(expected["parameters"], found["parameters"]):
+            self.assertAlmostEqual(b["median"] / a["median"], 1, delta=1e-9)
+
+    def test_an_output_that_would_destroy_an_input_is_refused(self):
+        for name in ("coil.csv", "rl.toml"):
+            before = (self.folder / name).read_bytes()
+            self.algest("replay", "rl.toml", "coil.csv", "-o", f"./{name}", exit_code=2)
+            self.assertEqual((self.folder / name).read_bytes(), before)
+
+    def test_an_output_that_cannot_be_written_is_an_error_and_no_result_is_printed(self):
+        out, err = self.algest("replay", "rl.toml", "coil.csv", "-o", "no/folder.csv", exit_code=2)
+        self.assertEqual(out, "")
+        self.assertIn("no/folder.csv: error: cannot be written", err)
+
+    def test_failures_of_model_and_recording_are_shown_together(self):
+        value = self.algest_json("replay", "nothing.toml", "nothing.csv", exit_code=2)
+        self.assertEqual([e["file"] for e in value["error"]], ["nothing.csv", "nothing.toml"])
+
+
+if __name__ == "__main__":
+    unittest.main()
