@@ -13,7 +13,7 @@ struct CheckOptions {
     bool json = false;
 };
 /// Are the models sound and identifiable? 0: all; 1: one is not identifiable; 2: one is not sound.
-/// JSON: {"models": [{"model", "ok", "warnings"}]}.
+/// JSON: {"models": [{"model", "ok", "warnings"}]}, after an error with "error": [...] in front.
 int check(const CheckOptions& options);
 
 struct DeriveOptions {
@@ -34,7 +34,8 @@ struct GenerateOptions {
 };
 /// Writes the estimators, DIR/NAME/..., or compares them with what is there (1: they differ). A model that fails leaves
 /// nothing; the others are written. JSON: {"models": [{"model", "name", "written": [path]}]}, with --check
-/// {"models": [{"model", "name", "differences": [{"path", "difference"}]}]}.
+/// {"models": [{"model", "name", "differences": [{"path", "difference"}]}]}; after an error with "error": [...] in front,
+/// and with the models that did not fail.
 int generate(const GenerateOptions& options);
 
 struct ReplayOptions {

@@ -2,14 +2,13 @@
 // algest generate: writes estimators, or compares them with what is there.
 #include "generator/generate.hpp"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
@@ -21,36 +20,43 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A model that was asked for, and what came of it.
-struct Estimator {
+/// A model that was asked for and could be planned.
+struct Planned {
     std::string model;
-    std::string name;
-    std::vector<generator::EmittedFile> files;  ///< paths as they will be written
+    plan::Plan plan;
 };
 
-/// Plans every model; those that fail leave diagnostics. Two estimators of one name would share files: then there are none.
-std::vector<plan::Plan> plan_all(const GenerateOptions& options, std::vector<std::string>& models,
-                                 Diagnostics& diagnostics) {
+/// Plans every model; those that fail tell `outcome`. Two estimators of one name would share files: then there are none.
+std::vector<Planned> plan_all(const GenerateOptions& options, Outcome& outcome) {
     const generator::PlanOptions plan_options{options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64,
                                               options.engine};
-    std::vector<plan::Plan> plans;
+    std::vector<Planned> out;
     std::map<std::string, std::string> model_of_name;
+    bool names_differ = true;
     for (const std::string& model : options.models) {
+        Diagnostics diagnostics;
         auto plan = generator::plan_from_model(model, plan_options, diagnostics);
-        if (!plan) continue;
-        const auto [first, is_new] = model_of_name.emplace(plan->name, model);
-        if (!is_new) {
-            diagnostics.error(model, {}, "its name is `" + plan->name + "`, that of " + first->second + " too",
-                              "a `name` of its own for each model");
-            return {};
+        if (plan) {
+            const auto [first, is_new] = model_of_name.emplace(plan->name, model);
+            if (!is_new) {
+                diagnostics.error(model, {}, "its name is `" + plan->name + "`, that of " + first->second + " too",
+                                  "a `name` of its own for each model");
+                names_differ = false;
+            } else if (!options.check) {
+                for (const std::string& text : plan->notes) diagnostics.note(model, text);
+            }
+            out.push_back({model, std::move(*plan)});
         }
-        if (!options.check) {
-            for (const std::string& text : plan->notes) diagnostics.note(model, text);
-        }
-        models.push_back(model);
-        plans.push_back(std::move(*plan));
+        outcome.take(diagnostics);
     }
-    return plans;
+    return names_differ ? std::move(out) : std::vector<Planned>();
+}
+
+/// The files of an estimator, with the paths under which they are to lie.
+std::vector<generator::EmittedFile> files_of(const plan::Plan& plan, const std::filesystem::path& directory) {
+    std::vector<generator::EmittedFile> files = generator::emit(plan);
+    for (generator::EmittedFile& file : files) file.path = (directory / file.path).string();
+    return files;
 }
 
 /// The bytes of a file; nullopt if there is none. What is there and cannot be read is an error.
@@ -67,9 +73,9 @@ std::optional<std::string> present_text(const std::string& path, Diagnostics& di
 }
 
 /// Puts all files of one estimator in their places, or none where one cannot be written beside its place.
-bool write(const Estimator& estimator, Diagnostics& diagnostics) {
+bool write(const std::vector<generator::EmittedFile>& files, Diagnostics& diagnostics) {
     std::vector<lab::StagedFile> staged;
-    for (const generator::EmittedFile& file : estimator.files) {
+    for (const generator::EmittedFile& file : files) {
         const std::filesystem::path folder = std::filesystem::path(file.path).parent_path();
         std::error_code error;
         std::filesystem::create_directories(folder, error);
@@ -82,15 +88,15 @@ bool write(const Estimator& estimator, Diagnostics& diagnostics) {
     }
     for (std::size_t k = 0; k < staged.size(); ++k) {
         if (!staged[k].put(diagnostics)) return false;
-        note("wrote " + estimator.files[k].path);
+        note("wrote " + files[k].path);
     }
     return true;
 }
 
 /// Shows how the files differ from what is there; the differences as JSON.
-ordered_json differences(const Estimator& estimator, bool json, Diagnostics& diagnostics) {
+ordered_json differences(const std::vector<generator::EmittedFile>& files, bool json, Diagnostics& diagnostics) {
     ordered_json out = ordered_json::array();
-    for (const generator::EmittedFile& file : estimator.files) {
+    for (const generator::EmittedFile& file : files) {
         std::string text = generator::difference(file, present_text(file.path, diagnostics));
         if (text.empty()) continue;
         if (!text.ends_with('\n')) text += '\n';
@@ -103,33 +109,25 @@ ordered_json differences(const Estimator& estimator, bool json, Diagnostics& dia
 }  // namespace
 
 int generate(const GenerateOptions& options) {
-    Diagnostics diagnostics;
-    std::vector<std::string> models;
-    const std::vector<plan::Plan> plans = plan_all(options, models, diagnostics);
-
-    bool different = false;
+    Outcome outcome;
     ordered_json done = ordered_json::array();
-    for (std::size_t k = 0; k < plans.size(); ++k) {
-        Estimator estimator{models[k], plans[k].name, generator::emit(plans[k])};
-        for (generator::EmittedFile& file : estimator.files) {
-            file.path = (std::filesystem::path(options.directory) / file.path).string();
-        }
-        ordered_json entry = {{"model", estimator.model}, {"name", estimator.name}};
+    for (const Planned& planned : plan_all(options, outcome)) {
+        Diagnostics diagnostics;
+        const std::vector<generator::EmittedFile> files = files_of(planned.plan, options.directory);
+        ordered_json entry = {{"model", planned.model}, {"name", planned.plan.name}};
         if (options.check) {
-            entry["differences"] = differences(estimator, options.json, diagnostics);
-            different = different || !entry["differences"].empty();
-        } else {
-            if (!write(estimator, diagnostics)) continue;
+            entry["differences"] = differences(files, options.json, diagnostics);
+            if (!entry["differences"].empty()) outcome.say_no();
+            done.push_back(std::move(entry));
+        } else if (write(files, diagnostics)) {
             entry["written"] = ordered_json::array();
-            for (const generator::EmittedFile& file : estimator.files) entry["written"].push_back(file.path);
+            for (const generator::EmittedFile& file : files) entry["written"].push_back(file.path);
+            done.push_back(std::move(entry));
         }
-        done.push_back(std::move(entry));
+        outcome.take(diagnostics);
     }
-
-    if (diagnostics.failed()) return fail(diagnostics, options.json);
-    print_diagnostics(diagnostics);
-    if (options.json) print_json({{"models", std::move(done)}});
-    return different ? exit_no : exit_done;
+    outcome.print_result({{"models", std::move(done)}}, options.json);
+    return outcome.code();
 }
 
 }  // namespace algest::cli

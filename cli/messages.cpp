@@ -3,7 +3,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace algest::cli {
 
@@ -93,6 +95,22 @@ void print_diagnostics(const Diagnostics& diagnostics) {
 ordered_json errors_json(const Diagnostics& diagnostics) { return chosen_json(diagnostics, true); }
 
 ordered_json warnings_json(const Diagnostics& diagnostics) { return chosen_json(diagnostics, false); }
+
+void Outcome::take(const Diagnostics& diagnostics) {
+    print_diagnostics(diagnostics);
+    code_ = std::max(code_, exit_code(diagnostics));
+    for (ordered_json& error : errors_json(diagnostics)) errors_.push_back(std::move(error));
+}
+
+void Outcome::say_no() { code_ = std::max(code_, exit_no); }
+
+void Outcome::print_result(ordered_json result, bool json) const {
+    if (!json) return;
+    ordered_json object = ordered_json::object();
+    if (!errors_.empty()) object["error"] = errors_;
+    object.update(result);
+    print_json(object);
+}
 
 int fail(const Diagnostics& diagnostics, bool json) {
     print_diagnostics(diagnostics);

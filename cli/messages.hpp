@@ -35,6 +35,23 @@ nlohmann::ordered_json errors_json(const Diagnostics& diagnostics);
 /// The same of warnings.
 nlohmann::ordered_json warnings_json(const Diagnostics& diagnostics);
 
+/// What came of several models, each with diagnostics of its own.
+class Outcome {
+public:
+    /// Prints the diagnostics of one model to standard error; the worst exit code and all errors are kept.
+    void take(const Diagnostics& diagnostics);
+    /// An answer that is no, without a diagnostic.
+    void say_no();
+    int code() const { return code_; }
+
+    /// With `json`, prints `result`; after an error with "error": [...] in front.
+    void print_result(nlohmann::ordered_json result, bool json) const;
+
+private:
+    int code_ = exit_done;
+    nlohmann::ordered_json errors_ = nlohmann::ordered_json::array();
+};
+
 /// How a command fails: diagnostics to standard error, {"error": [...]} to standard output if `json`; the exit code.
 int fail(const Diagnostics& diagnostics, bool json);
 

@@ -24,7 +24,7 @@ Status step(lab::HostEstimator<S>& estimator, S a, S b) {
 
 }  // namespace
 
-TEST_CASE("functionals are shared, in order of first use; terms are grouped by functional in order of rows") {
+TEST_CASE("functionals are shared, in order of first use, and terms are grouped by functional in order of rows") {
     plan::Plan p = test::conductance();
     p.lumped.resize(2);
     p.tables = {test::table({1, 2, 3}), test::table({4, 5, 6})};

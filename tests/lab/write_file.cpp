@@ -49,7 +49,7 @@ TEST_CASE("a staged file that is not put leaves nothing and changes nothing") {
     CHECK(text_of(path) == "before\n");
 }
 
-TEST_CASE("a symbolic link stays one; a device is written to, not replaced") {
+TEST_CASE("a symbolic link stays one, and a device is written to, not replaced") {
     const test::TemporaryFolder folder;
     Diagnostics diagnostics;
     const std::string target = folder.write("target", "before\n");
