@@ -116,7 +116,6 @@ private:
             out.ode = source.ode;
             out.n = forms_[e].n;
             out.kappa = source.kappa;
-            out.form = model_.estimator.form;
             out.divided = lumped.divided;
             out.leading = text(lumped.leading, parameters);
             out.delayed = forms_[e].delayed;
@@ -215,7 +214,6 @@ private:
         plan::Table out;
         out.n = n;
         out.kappa = kappa;
-        out.form = model_.estimator.form;
         out.derivative = derivative;
         out.p = p;
         out.hold = hold;

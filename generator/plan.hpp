@@ -38,7 +38,6 @@ struct Table {
     std::string name;                  ///< of the functional, e.g. "F_1_2_linear": derivative, row p, hold
     int n;
     int kappa;
-    int form;
     int derivative;
     int p;
     Hold hold;
@@ -83,7 +82,6 @@ struct Equation {
     std::string ode;         ///< as the user wrote it, or the transfer equation written out
     int n;
     int kappa;
-    int form;
     bool divided;            ///< by its leading coefficient
     std::string leading;     ///< that coefficient
     bool delayed;
