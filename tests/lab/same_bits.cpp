@@ -51,7 +51,8 @@ std::vector<S> samples(const plan::Plan& plan) {
         }
     }
     const auto bad = [&](int instant, S value) {
-        out[static_cast<std::size_t>(instant) * inputs + instant % inputs] = value;
+        const auto k = static_cast<std::size_t>(instant);
+        out[k * inputs + k % inputs] = value;
     };
     bad(instants, std::numeric_limits<S>::quiet_NaN());
     bad(2 * instants, std::numeric_limits<S>::infinity());
