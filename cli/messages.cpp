@@ -104,7 +104,7 @@ void Outcome::take(const Diagnostics& diagnostics) {
 
 void Outcome::say_no() { code_ = std::max(code_, exit_no); }
 
-void Outcome::print_result(ordered_json result, bool json) const {
+void Outcome::print_result(const ordered_json& result, bool json) const {
     if (!json) return;
     ordered_json object = ordered_json::object();
     if (!errors_.empty()) object["error"] = errors_;

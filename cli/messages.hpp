@@ -45,7 +45,7 @@ public:
     int code() const { return code_; }
 
     /// With `json`, prints `result`; after an error with "error": [...] in front.
-    void print_result(nlohmann::ordered_json result, bool json) const;
+    void print_result(const nlohmann::ordered_json& result, bool json) const;
 
 private:
     int code_ = exit_done;
