@@ -111,13 +111,13 @@ std::string annihilator_text(const plan::Equation& e) {
     return "Pi = d^" + order + "/ds^" + order + s;
 }
 
-std::string window_text(const Plan& plan) { return exact::text(*exact::parse(plan.period_text) * plan.intervals); }
+Rational window(const Plan& plan) { return *exact::parse(plan.period_text) * plan.intervals; }
 
 Data common(const Plan& plan) {
     Data d;
     d.set("version", std::string(ALGEST_VERSION));
     d.set("name", plan.name);
-    d.set("window", window_text(plan));
+    d.set("window", exact::decimal(window(plan)));
     return d;
 }
 
@@ -219,7 +219,7 @@ std::string derivation_text(const Plan& plan) {
     d.set("has_summary", !plan.summary.empty());
     d.set("source", plan.source);
     d.set("has_source", !plan.source.empty());
-    d.set("period", plan.period_text);
+    d.set("period", exact::decimal(*exact::parse(plan.period_text)));
     d.set("intervals", std::to_string(plan.intervals));
     d.set("samples", std::to_string(plan.samples()));
     d.set("solve_text", solve_text(plan));
@@ -289,7 +289,7 @@ std::string derivation_json(const Plan& plan, bool weights) {
     using Json = nlohmann::ordered_json;
     Json out;
     out["name"] = plan.name;
-    out["window_s"] = exact::nearest(*exact::parse(window_text(plan)), plan::Scalar::float64);
+    out["window_s"] = exact::nearest(window(plan), plan::Scalar::float64);
     out["samples"] = plan.samples();
     out["equations"] = Json::array();
     for (std::size_t e = 0; e < plan.equations.size(); ++e) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "generator/constant_value.hpp"
 #include "generator/model.hpp"
 
 namespace algest::model {
@@ -19,7 +20,7 @@ struct Walk {
     Diagnostics* diagnostics;   // null: silent
 
     void complain(const Formula& f, const std::string& what, const std::string& right) const {
-        if (diagnostics != nullptr) diagnostics->error(equation.file, equation.place(f->offset), what, right);
+        if (diagnostics != nullptr) diagnostics->error(equation.file, equation.place(f->start), what, right);
     }
 
     static Unit declared(const std::string& unit) {
@@ -54,20 +55,12 @@ struct Walk {
     Unit power(const Formula& f) const {
         const Unit base = of(f->arguments[0]);
         const Formula& e = f->arguments[1];
-        std::optional<exact::Rational> exponent;
-        const Formula& inner = e->kind == Kind::negate ? e->arguments[0] : e;
-        if (inner->kind == Kind::number) exponent = inner->value;
-        if (inner->kind == Kind::name && model.constant(inner->name) != nullptr) exponent = model.constant(inner->name)->value;
-        if (inner->kind == Kind::divide && inner->arguments[0]->kind == Kind::number && inner->arguments[1]->kind == Kind::number &&
-            !cln::zerop(inner->arguments[1]->value)) {
-            exponent = inner->arguments[0]->value / inner->arguments[1]->value;
-        }
+        const auto exponent = constant_value(model, e);
         if (!exponent) {
             expect_number(of(e), e, "an exponent");
             expect_number(base, f->arguments[0], "a power with a variable exponent");
             return {};
         }
-        if (e->kind == Kind::negate) exponent = -*exponent;
         if (cln::abs(*exponent) > formula::largest_exponent || cln::denominator(*exponent) > formula::largest_exponent) return {};
         return base.root(cln::cl_I_to_int(cln::denominator(*exponent))).power(cln::cl_I_to_int(cln::numerator(*exponent)));
     }

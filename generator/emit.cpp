@@ -157,7 +157,7 @@ Data head(const Plan& plan) {
     d.set("rows", std::to_string(plan.rows.size()));
     d.set("unknowns", std::to_string(plan.lumped.size()));
     d.set("instants", std::to_string(plan.solve_instants));
-    d.set("period", plan.period_text);
+    d.set("period", exact::decimal(*exact::parse(plan.period_text)));
     return d;
 }
 
@@ -173,7 +173,7 @@ void set_cost(const Plan& plan, Data& d) {
     d.set("table_bytes", std::to_string(static_cast<int>(plan.tables.size()) * plan.samples() * scalar_bytes(plan)));
     const int first_ok = plan.samples() + std::max(plan.solve_instants - 1, 0) + (plan.delayed() ? 1 : 0);
     d.set("first_ok", std::to_string(first_ok));
-    d.set("first_ok_s", exact::text(*exact::parse(plan.period_text) * (first_ok - 1)));
+    d.set("first_ok_s", exact::decimal(*exact::parse(plan.period_text) * (first_ok - 1)));
     d.set("restart_note", plan.solve != Solve::least_squares);
 }
 

@@ -8,6 +8,7 @@
 #include <cln/rational_io.h>
 #include <cln/real.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -124,6 +125,27 @@ std::string text(const Rational& value) {
     std::ostringstream out;
     out << value;
     return out.str();
+}
+
+std::string decimal(const Rational& value) {
+    // A decimal ends where the denominator divides a power of ten.
+    Integer rest = cln::denominator(value);
+    int places = 0;
+    for (const int factor : {2, 5}) {
+        int powers = 0;
+        while (cln::zerop(cln::mod(rest, factor))) {
+            rest = cln::exquo(rest, factor);
+            ++powers;
+        }
+        places = std::max(places, powers);
+    }
+    if (rest != 1 || places > 20) return text(value);
+    if (places == 0) return text(value);
+    const Rational shifted = cln::abs(value) * cln::expt_pos(Integer(10), places);
+    std::string digits = text(shifted);
+    if (digits.size() <= static_cast<std::size_t>(places)) digits.insert(0, static_cast<std::size_t>(places) + 1 - digits.size(), '0');
+    digits.insert(digits.size() - static_cast<std::size_t>(places), ".");
+    return cln::minusp(value) ? "-" + digits : digits;
 }
 
 double nearest_double(const Integer& numerator, const Integer& denominator) {

@@ -28,6 +28,9 @@ bool is_integer(const Rational& value);
 /// "-1/6", "3".
 std::string text(const Rational& value);
 
+/// "0.0001" where the decimal ends, else the fraction "1/3"; for people.
+std::string decimal(const Rational& value);
+
 /// The nearest double to numerator/denominator (denominator > 0), ties to even, denormals included; +-infinity beyond range.
 double nearest_double(const Integer& numerator, const Integer& denominator);
 /// The nearest float, likewise, in one rounding.

@@ -12,25 +12,22 @@ struct Stop {};   // unwinds the parser after its one complaint
 
 class Parser {
 public:
-    Parser(std::string_view text, const Complain& complain) : text_(text), complain_(complain) {}
+    Parser(std::string_view text, const Complain& complain, bool equation) : text_(text), complain_(complain), equation_(equation) {}
 
     Formula expression() { return sum(0); }
 
     void expect_end() {
         blanks();
-        if (at_ < text_.size()) unexpected();
+        if (at_ < text_.size()) not_an_operator();
     }
 
-    bool accept(char c) {
-        blanks();
-        if (at_ >= text_.size() || text_[at_] != c) return false;
-        ++at_;
-        return true;
-    }
-
-    int offset() {
-        blanks();
-        return static_cast<int>(at_);
+    /// Moves behind the '=' of the equation.
+    void expect_equals() {
+        if (!accept('=')) {
+            if (at_ < text_.size()) not_an_operator();
+            fail(offset(), "an equation without '='", "write left = right");
+        }
+        behind_equals_ = true;
     }
 
     [[noreturn]] void fail(int offset, const std::string& what, const std::string& right) const {
@@ -46,27 +43,70 @@ public:
     }
 
 private:
+    static bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+    static bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+    char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+
     void blanks() {
-        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r')) ++at_;
+        while (peek() == ' ' || peek() == '\t' || peek() == '\n' || peek() == '\r') ++at_;
     }
 
+    bool accept(char c) {
+        blanks();
+        if (at_ >= text_.size() || text_[at_] != c) return false;
+        ++at_;
+        return true;
+    }
+
+    int offset() {
+        blanks();
+        return static_cast<int>(at_);
+    }
+
+    /// What stands here can stand nowhere, or not before and not behind an operand.
     [[noreturn]] void unexpected() const {
-        if (at_ >= text_.size()) fail(static_cast<int>(text_.size()), "the formula ends too early", "add the missing operand or ')'");
-        const std::string c(1, text_[at_]);
-        if (c == ")") fail(static_cast<int>(at_), "')' without '('", "remove it, or open it before");
-        if (text_.substr(at_, 2) == "**") fail(static_cast<int>(at_), "'**' is not an operator", "write ^ for a power");
-        if (c == "=") fail(static_cast<int>(at_), "a second '='", "an equation has one '='");
-        const unsigned char byte = static_cast<unsigned char>(c[0]);
-        const std::string shown = byte < 0x20 || byte >= 0x7F ? "a character that no formula has" : "unexpected '" + c + "'";
-        fail(static_cast<int>(at_), shown, "formulas have numbers, names, + - * / ^ ( ) , and functions");
+        const int here = static_cast<int>(at_);
+        if (text_.substr(at_, 2) == "**") fail(here, "'**' is not an operator", "write ^ for a power");
+        if (peek() == '=' && !equation_) fail(here, "'=' in an expression", "write the right side alone");
+        if (peek() == '=' && behind_equals_) fail(here, "a second '='", "an equation has one '='");
+        const unsigned char byte = static_cast<unsigned char>(peek());
+        const std::string shown = byte < 0x20 || byte >= 0x7F ? std::string("a character that no formula has") : std::string("unexpected '") + peek() + "'";
+        fail(here, shown, "formulas have numbers, names, + - * / ^ ( ) , and functions");
     }
 
-    Formula node(Kind kind, int offset, std::vector<Formula> arguments, std::string name = {}, exact::Rational value = 0) {
+    /// Stopped where an operand should stand.
+    [[noreturn]] void not_an_operand() const {
+        const int here = static_cast<int>(at_);
+        if (at_ >= text_.size()) fail(here, "the formula ends too early", "add the missing operand or ')'");
+        const char c = peek();
+        const bool second_equals = c == '=' && (behind_equals_ || !equation_);
+        const bool twice = text_.substr(at_, 2) == "**";
+        if (!second_equals && !twice && std::string_view("*/^),=").find(c) != std::string_view::npos) {
+            fail(here, std::string("an operand is missing before '") + c + "'", "add it, or remove the '" + std::string(1, c) + "'");
+        }
+        unexpected();
+    }
+
+    /// Stopped behind an operand, where an operator could stand or the formula end.
+    [[noreturn]] void not_an_operator() const {
+        const int here = static_cast<int>(at_);
+        const char c = peek();
+        if (c == ')') fail(here, "')' without '('", "remove it, or open it before");
+        if (is_digit(c) || is_letter(c) || c == '(') {
+            fail(here, std::string("an operator is missing before '") + c + "'", "write * for a product");
+        }
+        unexpected();
+    }
+
+    Formula node(Kind kind, int offset, int start, std::vector<Formula> arguments, std::string name = {}, exact::Rational value = 0) {
         if (++tokens_ > most_tokens) {
             fail(offset, "the formula has more than " + std::to_string(most_tokens) + " operations", "split the equation");
         }
-        return std::make_shared<const Node>(Node{kind, offset, std::move(value), std::move(name), std::move(arguments)});
+        return std::make_shared<const Node>(Node{kind, offset, start, std::move(value), std::move(name), std::move(arguments)});
     }
+
+    Formula binary(Kind kind, int offset, const Formula& left, const Formula& right) { return node(kind, offset, left->start, {left, right}); }
 
     void check_depth(int depth) {
         if (depth > deepest_nesting) {
@@ -79,8 +119,8 @@ private:
         Formula left = product(depth);
         for (;;) {
             const int here = offset();
-            if (accept('+')) left = node(Kind::add, here, {left, product(depth)});
-            else if (accept('-')) left = node(Kind::subtract, here, {left, product(depth)});
+            if (accept('+')) left = binary(Kind::add, here, left, product(depth));
+            else if (accept('-')) left = binary(Kind::subtract, here, left, product(depth));
             else return left;
         }
     }
@@ -90,8 +130,8 @@ private:
         for (;;) {
             const int here = offset();
             if (text_.substr(at_, 2) == "**") unexpected();
-            if (accept('*')) left = node(Kind::multiply, here, {left, unary(depth)});
-            else if (accept('/')) left = node(Kind::divide, here, {left, unary(depth)});
+            if (accept('*')) left = binary(Kind::multiply, here, left, unary(depth));
+            else if (accept('/')) left = binary(Kind::divide, here, left, unary(depth));
             else return left;
         }
     }
@@ -99,7 +139,7 @@ private:
     Formula unary(int depth) {
         check_depth(depth);
         const int here = offset();
-        if (accept('-')) return node(Kind::negate, here, {unary(depth + 1)});
+        if (accept('-')) return node(Kind::negate, here, here, {unary(depth + 1)});
         if (accept('+')) return unary(depth + 1);
         return power(depth);
     }
@@ -108,66 +148,65 @@ private:
         Formula base = primary(depth);
         const int here = offset();
         if (!accept('^')) return base;
-        return node(Kind::power, here, {base, unary(depth + 1)});   // right-associative
+        return binary(Kind::power, here, base, unary(depth + 1));   // right-associative
     }
 
     Formula primary(int depth) {
         const int here = offset();
-        if (at_ >= text_.size()) unexpected();
-        const char c = text_[at_];
-        if (c == '(') {
-            ++at_;
-            Formula inside = sum(depth + 1);
+        if (accept('(')) {
+            const Formula inside = sum(depth + 1);
             if (!accept(')')) {
                 if (at_ >= text_.size()) fail(here, "'(' is never closed", "add ')'");
-                unexpected();
+                not_an_operator();
             }
-            return inside;
+            Node with_parentheses = *inside;
+            with_parentheses.start = here;
+            return std::make_shared<const Node>(std::move(with_parentheses));
         }
-        if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
-        if (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_') return name_or_call(depth);
-        unexpected();
+        if (is_digit(peek()) || peek() == '.') return number();
+        if (is_letter(peek())) return name_or_call(depth);
+        not_an_operand();
     }
 
     Formula number() {
         const std::size_t start = at_;
-        const auto digits = [&] { while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0) ++at_; };
+        const auto digits = [&] { while (is_digit(peek())) ++at_; };
         digits();
-        if (at_ < text_.size() && text_[at_] == '.') { ++at_; digits(); }
-        if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
+        if (peek() == '.') { ++at_; digits(); }
+        if (peek() == 'e' || peek() == 'E') {
             std::size_t next = at_ + 1;
             if (next < text_.size() && (text_[next] == '+' || text_[next] == '-')) ++next;
-            if (next < text_.size() && std::isdigit(static_cast<unsigned char>(text_[next])) != 0) { at_ = next; digits(); }
+            if (next < text_.size() && is_digit(text_[next])) { at_ = next; digits(); }
         }
         const auto value = exact::parse(text_.substr(start, at_ - start));
         if (!value) {
             fail(static_cast<int>(start), "not a number that can be read exactly",
                  "write a decimal with at most 400 digits and an exponent within +-400");
         }
-        if (at_ < text_.size() && (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
-            fail(static_cast<int>(at_), "a name right after a number", "write * between them");
-        }
-        return node(Kind::number, static_cast<int>(start), {}, {}, *value);
+        if (is_letter(peek())) fail(static_cast<int>(at_), "a name right after a number", "write * between them");
+        return node(Kind::number, static_cast<int>(start), static_cast<int>(start), {}, {}, *value);
     }
 
     Formula name_or_call(int depth) {
-        const std::size_t start = at_;
-        while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) ++at_;
-        std::string name(text_.substr(start, at_ - start));
-        const int here = static_cast<int>(start);
-        if (!accept('(')) return node(Kind::name, here, {}, std::move(name));
+        const int here = static_cast<int>(at_);
+        while (is_letter(peek()) || is_digit(peek())) ++at_;
+        std::string name(text_.substr(static_cast<std::size_t>(here), at_ - static_cast<std::size_t>(here)));
+        if (name.size() > static_cast<std::size_t>(longest_name)) {
+            fail(here, "a name of " + std::to_string(name.size()) + " characters", "names have at most " + std::to_string(longest_name));
+        }
+        if (!accept('(')) return node(Kind::name, here, here, {}, std::move(name));
         if (name != "der" && !is_function(name)) {
             fail(here, "'" + name + "' is not a function",
                  "functions are der sin cos tan exp log sqrt abs sgn min max; write * for a product");
         }
         std::vector<Formula> arguments;
-        do {
-            if (arguments.size() > 2) break;
-            arguments.push_back(sum(depth + 1));
-        } while (accept(','));
         if (!accept(')')) {
-            if (at_ >= text_.size()) fail(here, "'(' of " + name + " is never closed", "add ')'");
-            if (text_[at_] != ',') unexpected();
+            do arguments.push_back(sum(depth + 1));
+            while (accept(','));
+            if (!accept(')')) {
+                if (at_ >= text_.size()) fail(here, "'(' of " + name + " is never closed", "add ')'");
+                not_an_operator();
+            }
         }
         const std::size_t most = name == "der" || is_function_of_two(name) ? 2 : 1;
         const std::size_t least = is_function_of_two(name) ? 2 : 1;
@@ -175,11 +214,13 @@ private:
             fail(here, name + " takes " + (name == "der" ? "a signal and, if wanted, an order" : least == 2 ? "two arguments" : "one argument"),
                  name == "der" ? "der(x) or der(x,2)" : least == 2 ? name + "(x,y)" : name + "(x)");
         }
-        return node(Kind::call, here, std::move(arguments), std::move(name));
+        return node(Kind::call, here, here, std::move(arguments), std::move(name));
     }
 
     std::string_view text_;
     const Complain& complain_;
+    bool equation_;
+    bool behind_equals_ = false;
     std::size_t at_ = 0;
     int tokens_ = 0;
 };
@@ -268,7 +309,7 @@ bool is_function(std::string_view name) {
 
 std::optional<Formula> parse(std::string_view text, const Complain& complain) {
     try {
-        Parser parser(text, complain);
+        Parser parser(text, complain, false);
         parser.check_length();
         Formula out = parser.expression();
         parser.expect_end();
@@ -280,15 +321,11 @@ std::optional<Formula> parse(std::string_view text, const Complain& complain) {
 
 std::optional<Equation> parse_equation(std::string_view text, const Complain& complain) {
     try {
-        Parser parser(text, complain);
+        Parser parser(text, complain, true);
         parser.check_length();
         Equation out;
         out.left = parser.expression();
-        const int here = parser.offset();
-        if (!parser.accept('=')) {
-            if (here < static_cast<int>(text.size())) parser.expect_end();
-            parser.fail(here, "an equation without '='", "write left = right");
-        }
+        parser.expect_equals();
         out.right = parser.expression();
         parser.expect_end();
         return out;

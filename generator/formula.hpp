@@ -19,7 +19,8 @@ using Formula = std::shared_ptr<const Node>;
 
 struct Node {
     Kind kind;
-    int offset;                       ///< of the token in the text, in bytes from 0
+    int offset;                       ///< of the token in the text, in bytes from 0: of an operator, the operator
+    int start;                        ///< of the first token, an opening parenthesis included
     exact::Rational value;            ///< of a number
     std::string name;                 ///< of a name or a call
     std::vector<Formula> arguments;   ///< operands in written order
@@ -38,6 +39,8 @@ using Complain = std::function<void(int offset, const std::string& what, const s
 constexpr int longest_text = 20000;
 constexpr int deepest_nesting = 100;
 constexpr int most_tokens = 4000;
+/// Longest name.
+constexpr int longest_name = 60;
 /// Largest integer exponent.
 constexpr int largest_exponent = 32;
 

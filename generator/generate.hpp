@@ -21,7 +21,8 @@ struct PlanOptions {
 /// With strict, a missing unit is an error.
 bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics);
 
-/// Derives the estimator of a model file. Empty when `diagnostics` says why not.
+/// Derives the estimator of a model file. Empty when `diagnostics` says why not; each model needs diagnostics of its own, since
+/// an error that stands there already counts as one of this model.
 std::optional<plan::Plan> plan_from_model(const std::string& path, const PlanOptions& options, Diagnostics& diagnostics);
 
 /// The derivation for a person, for a paper, and for a program (design.md, section 8; `weights` adds the tables).

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "generator/constant_value.hpp"
 #include "generator/dimension.hpp"
 #include "generator/names.hpp"
 #include "generator/source_text.hpp"
@@ -20,23 +21,55 @@ namespace algest::model {
 namespace {
 
 constexpr std::size_t largest_file = 1024 * 1024;
+constexpr int longest_key = 10;           // dotted parts; a model needs 4
+constexpr int most_complaints = 100;
+constexpr std::size_t most_entries = 100;   // signals, constants, parameters, equations, each
+constexpr std::size_t longest_unit = 60;
+constexpr int largest_number = 100;       // 10^+-this
+constexpr int largest_time = 9;           // 10^+-this, s
+
+struct TooMany {};   // unwinds the reader after most_complaints
 
 Position position(const toml::source_region& region) {
     return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 Position position(const toml::node& node) { return position(node.source()); }
 
-/// The key of `known` that is closest to a misspelt one, or all of them.
+/// Letters to insert, remove or change in a to get b.
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+/// The key of `known` that is closest to a misspelt one, and all of them.
 std::string suggestion(std::string_view key, const std::vector<std::string>& known) {
     std::string all;
     for (const std::string& k : known) all += (all.empty() ? "" : ", ") + k;
+    if (key.size() > 40) return "keys here: " + all;
+    const std::string* closest = nullptr;
+    std::size_t least = std::max<std::size_t>(1, key.size() / 3) + 1;
     for (const std::string& k : known) {
-        std::size_t same = 0;
-        while (same < key.size() && same < k.size() && key[same] == k[same]) ++same;
-        if (same >= 3 || (key.size() == k.size() && same + 1 >= key.size())) return "did you mean " + k + "? keys here: " + all;
+        const bool one_begins_the_other = std::min(k.size(), key.size()) >= 3 && k.compare(0, key.size(), key, 0, k.size()) == 0;
+        const std::size_t d = one_begins_the_other ? 1 : distance(key, k);
+        if (d < least) {
+            closest = &k;
+            least = d;
+        }
     }
-    return "keys here: " + all;
+    return (closest == nullptr ? "" : "did you mean " + *closest + "? ") + "keys here: " + all;
 }
+
+Rational power_of_ten(int exponent) { return exact::power(Rational(10), exponent); }
 
 /// Reads one model file; holds what the readers of its parts share.
 class Reader {
@@ -66,26 +99,32 @@ public:
             read_transfer(*t);
         } else {
             each_table(root, "equation", [&](const toml::table& table) { read_equation(table); });
-            if (!root.contains("equation")) {
-                diagnostics_.error(path_, {1, 1}, "no equation", "add [transfer] or [[equation]]");
+            const toml::array* equations = root["equation"].as_array();
+            if (!root.contains("equation") || (equations != nullptr && equations->empty())) {
+                error(Position{1, 1}, "no equation", "add [transfer] or [[equation]]");
             }
         }
         each_table(root, "feedback", [&](const toml::table& table) { read_feedback(table); });
         if (model_.signals.empty() && !root.contains("signals")) {
-            diagnostics_.error(path_, {1, 1}, "no [signals]", "declare what is measured: y = { unit = \"rad\" }");
+            error(Position{1, 1}, "no [signals]", "declare what is measured: y = { unit = \"rad\" }");
         }
     }
 
 private:
     // ---- complaints and typed access -------------------------------------------------------------------------------
 
-    void error(Position at, std::string what, std::string right) { diagnostics_.error(path_, at, std::move(what), std::move(right)); }
+    void error(Position at, std::string what, std::string right) {
+        diagnostics_.error(path_, at, std::move(what), std::move(right));
+        if (++complaints_ < most_complaints) return;
+        diagnostics_.note(path_, "more than " + std::to_string(most_complaints) + " complaints: the rest is left out");
+        throw TooMany{};
+    }
     void error(const toml::node& node, std::string what, std::string right) { error(position(node), std::move(what), std::move(right)); }
 
     void known_keys(const toml::table& table, const std::vector<std::string>& known) {
         for (const auto& [key, node] : table) {
             if (std::find(known.begin(), known.end(), std::string(key.str())) == known.end()) {
-                error(position(key.source()), "unknown key '" + std::string(key.str()) + "'", suggestion(key.str(), known));
+                error(position(key.source()), "unknown key " + quoted(key.str()), suggestion(key.str(), known));
             }
         }
     }
@@ -110,10 +149,19 @@ private:
             const auto y = b.first->source().begin;
             return x.line != y.line ? x.line < y.line : x.column < y.column;
         });
+        std::size_t count = 0;
         for (const auto& [key, node] : entries) {
+            if (!few_enough(position(key->source()), count++)) return;
             const std::string name(key->str());
             use(name, position(key->source()), *node);
         }
+    }
+
+    /// Too many entries are one complaint, and none of those beyond is looked at.
+    bool few_enough(Position at, std::size_t count) {
+        if (count < most_entries) return true;
+        if (count == most_entries) error(at, "more than " + std::to_string(most_entries) + " of a kind", "split the model");
+        return false;
     }
 
     template <class Use>
@@ -125,7 +173,9 @@ private:
             error(*node, "'" + std::string(key) + "' is not an array of tables", "write [[" + std::string(key) + "]]");
             return;
         }
+        std::size_t count = 0;
         for (const toml::node& entry : *array) {
+            if (!few_enough(position(entry), count++)) return;
             if (entry.is_table()) use(*entry.as_table());
             else error(entry, "'" + std::string(key) + "' holds something that is not a table", "write [[" + std::string(key) + "]]");
         }
@@ -148,19 +198,35 @@ private:
     }
 
     std::optional<Rational> number(const toml::node& node, const std::string& key) {
-        if (const auto integer = node.value_exact<std::int64_t>()) return Rational(cln::cl_I(static_cast<long>(*integer)));
-        if (const auto real = node.value_exact<double>()) {
-            if (std::isfinite(*real)) return exact::from_double(*real);
-            error(node, "'" + key + "' is not finite", "write a number");
+        const auto not_a_number = [&] {
+            error(node, quoted(key) + " is not a number", "write a decimal or a fraction: 0.1, \"1/3\"");
+            return std::nullopt;
+        };
+        std::optional<Rational> value;
+        if (const auto integer = node.value_exact<std::int64_t>()) {
+            value = Rational(cln::cl_I(static_cast<long>(*integer)));
+        } else if (const auto real = node.value_exact<double>()) {
+            if (!std::isfinite(*real)) {
+                error(node, quoted(key) + " is not finite", "write a number");
+                return std::nullopt;
+            }
+            value = exact::from_double(*real);
+        } else if (const auto text = node.value_exact<std::string>()) {
+            value = exact::parse(*text);
+        }
+        if (!value) return not_a_number();
+        if (!within(*value, largest_number)) {
+            error(node, quoted(key) + " is beyond 1e" + std::to_string(largest_number) + " or closer to 0 than 1e-" + std::to_string(largest_number),
+                  "choose units in which it is of usual size");
             return std::nullopt;
         }
-        if (const auto text = node.value_exact<std::string>()) {
-            if (const auto value = exact::parse(*text)) return value;
-            error(node, "'" + key + "' is not a number", "write a decimal or a fraction: 0.1, \"1/3\"");
-            return std::nullopt;
-        }
-        error(node, "'" + key + "' is not a number", "write a decimal or a fraction: 0.1, \"1/3\"");
-        return std::nullopt;
+        return value;
+    }
+
+    /// True for 0 and for what is between 10^-exponent and 10^exponent in size.
+    static bool within(const Rational& value, int exponent) {
+        const Rational size = cln::abs(value);
+        return cln::zerop(value) || (size <= power_of_ten(exponent) && size >= power_of_ten(-exponent));
     }
 
     std::optional<Rational> number(const toml::table& table, std::string_view key) {
@@ -172,6 +238,17 @@ private:
         const auto value = number(table, key);
         if (value && !cln::plusp(*value)) {
             error(*table.get(key), "'" + std::string(key) + "' is not positive", "write a number above 0");
+            return std::nullopt;
+        }
+        return value;
+    }
+
+    /// A time in seconds, positive.
+    std::optional<Rational> duration(const toml::table& table, std::string_view key) {
+        const auto value = positive(table, key);
+        if (value && !within(*value, largest_time)) {
+            const std::string limit = std::to_string(largest_time);
+            error(*table.get(key), "'" + std::string(key) + "' is beyond 1e" + limit + " s or below 1e-" + limit + " s", "it is in seconds");
             return std::nullopt;
         }
         return value;
@@ -201,7 +278,7 @@ private:
             }
             all += (all.empty() ? "" : " | ") + word;
         }
-        error(*table.get(key), "'" + *text + "' is no " + std::string(key), std::string(key) + " is one of " + all);
+        error(*table.get(key), quoted(*text) + " is no " + std::string(key), std::string(key) + " is one of " + all);
     }
 
     // ---- parts of the file -----------------------------------------------------------------------------------------
@@ -227,22 +304,30 @@ private:
     void read_sampling(const toml::table& t) {
         known_keys(t, {"period", "window", "growing"});
         model_.sampling_at = position(t);
-        model_.period = positive(t, "period");
-        model_.window = positive(t, "window");
+        model_.period = duration(t, "period");
+        model_.window = duration(t, "window");
         if (t.contains("window")) model_.window_at = position(*t.get("window"));
         model_.growing = boolean(t, "growing").value_or(false);
-        if (model_.period && model_.window) {
-            const Rational intervals = *model_.window / *model_.period;
-            if (!exact::is_integer(intervals)) {
-                const exact::Integer below = cln::floor1(intervals);
-                error(model_.window_at, "the window is not a whole number of periods: " + exact::text(intervals),
-                      "e.g. window = \"" + exact::text(below * *model_.period) + "\", which is " + exact::text(below) + " periods");
-                model_.window.reset();
-            } else if (intervals > most_intervals || intervals < 2) {
-                error(model_.window_at, "the window has " + exact::text(intervals) + " periods", "from 2 to 1000000 are possible");
-                model_.window.reset();
-            }
+        if (model_.growing) {
+            error(*t.get("growing"), "a growing window is not supported by this version", "leave it out: the window then slides from the start");
         }
+        if (model_.period && model_.window) check_window();
+    }
+
+    void check_window() {
+        const Rational intervals = *model_.window / *model_.period;
+        if (intervals > most_intervals) {
+            error(model_.window_at, "the window has more than " + std::to_string(most_intervals) + " periods", "choose a shorter one, or sample less often");
+        } else if (intervals < 2) {
+            error(model_.window_at, "the window is shorter than two periods", "choose a longer one");
+        } else if (!exact::is_integer(intervals)) {
+            const exact::Integer below = cln::floor1(intervals);
+            error(model_.window_at, "the window is not a whole number of periods: between " + exact::text(below) + " and " + exact::text(below + 1),
+                  "e.g. window = \"" + exact::text(below * *model_.period) + "\", which is " + exact::text(below));
+        } else {
+            return;
+        }
+        model_.window.reset();
     }
 
     /// Name, and the rules that signals, constants and parameters share.
@@ -266,7 +351,7 @@ private:
         const auto text = string(t, "unit");
         if (!text) {
             if (!t.contains("unit")) {
-                const std::string what = "'" + name + "' has no unit and goes unchecked";
+                const std::string what = quoted(name) + " has no unit and goes unchecked";
                 if (strict_) error(at, what, "add unit = \"...\", \"1\" if it has none");
                 else diagnostics_.warning(path_, at, what, "add unit = \"...\", \"1\" if it has none");
             }
@@ -274,11 +359,11 @@ private:
         }
         const toml::node& node = *t.get("unit");
         if (const auto right = units::right_spelling(*text)) {
-            error(node, "'" + *text + "' is not a unit", "write " + *right);
+            error(node, quoted(*text) + " is not a unit", "write " + *right);
             return {};
         }
-        if (!units::Unit::parse(*text)) {
-            error(node, "UDUNITS does not know the unit '" + *text + "'", "write products with points and powers with ^: N.m, kg.m^2, rad/s");
+        if (fault_of_prose(*text) || text->size() > longest_unit || !units::Unit::parse(*text)) {
+            error(node, "UDUNITS does not know the unit " + quoted(*text), "write products with points and powers with ^: N.m, kg.m^2, rad/s");
             return {};
         }
         if (units::mentions_hertz(*text)) {
@@ -289,7 +374,7 @@ private:
 
     /// Accepts { key = value, ... }; anything else is one complaint.
     const toml::table* entry(const std::string& name, const toml::node& node) {
-        if (!node.is_table()) error(node, "'" + name + "' is not a table", "write " + name + " = { unit = \"...\" }");
+        if (!node.is_table()) error(node, quoted(name) + " is not a table", "write NAME = { unit = \"...\" }");
         return node.as_table();
     }
 
@@ -333,7 +418,7 @@ private:
         known_keys(*t, {"value", "unit"});
         const bool named = take_name(name, at);
         const auto value = number(*t, "value");
-        if (!t->contains("value")) error(at, "constant '" + name + "' has no value", "write " + name + " = { value = 1, unit = \"1\" }");
+        if (!t->contains("value")) error(at, "constant " + quoted(name) + " has no value", "write NAME = { value = 1, unit = \"1\" }");
         const std::string declared = unit(*t, name, at);
         if (named && value) model_.constants.push_back({name, at, declared, *value});
         else if (named) model_.constants.push_back({name, at, declared, 1});   // keeps later complaints to the point
@@ -353,7 +438,7 @@ private:
         p.max = number(*t, "max");
         check_limits(*t, p.min, p.max);
         if (p.initial && ((p.min && *p.initial < *p.min) || (p.max && *p.initial > *p.max))) {
-            error(*t->get("initial"), "the initial value of '" + name + "' is outside [min, max]", "choose one inside");
+            error(*t->get("initial"), "the initial value of " + quoted(name) + " is outside [min, max]", "choose one inside");
         }
         if (named) model_.parameters.push_back(p);
     }
@@ -374,7 +459,7 @@ private:
                                  {{"exact", plan::Quadrature::exact}, {"trapezoid", plan::Quadrature::trapezoid},
                                   {"simpson", plan::Quadrature::simpson}}, e.quadrature);
         e.form = whole(t, "form", 1, 2).value_or(1);
-        e.solve_window = positive(t, "solve_window");
+        e.solve_window = duration(t, "solve_window");
         e.condition_limit = positive(t, "condition_limit");
         if (const auto f = positive(t, "forgetting")) {
             if (*f > 1) error(*t.get("forgetting"), "'forgetting' is above 1", "1 keeps every row, 0.999 forgets slowly");
@@ -392,7 +477,10 @@ private:
         if (e.solve_window && model_.period && !exact::is_integer(*e.solve_window / *model_.period)) {
             error(*t.get("solve_window"), "solve_window is not a whole number of periods", "choose a multiple of the period");
         } else if (e.solve_window && model_.period && *e.solve_window / *model_.period > most_intervals) {
-            error(*t.get("solve_window"), "solve_window has more than 1000000 periods", "choose a shorter one");
+            error(*t.get("solve_window"), "solve_window has more than " + std::to_string(most_intervals) + " periods", "choose a shorter one");
+        }
+        if (e.quadrature == plan::Quadrature::simpson && model_.period && model_.window && cln::oddp(cln::numerator(*model_.window / *model_.period))) {
+            error(*t.get("quadrature"), "Simpson's rule needs an even number of periods in the window", "change the window by one period");
         }
     }
 
@@ -430,7 +518,7 @@ private:
         e.name = string(t, "name").value_or("equation " + std::to_string(model_.equations.size() + 1));
         if (const auto fault = fault_of_prose(e.name)) error(*t.get("name"), fault->what, fault->right);
         for (const Equation& other : model_.equations) {
-            if (other.name == e.name && t.contains("name")) error(*t.get("name"), "two equations are named '" + e.name + "'", "rename one");
+            if (other.name == e.name && t.contains("name")) error(*t.get("name"), "two equations are named " + quoted(e.name), "rename one");
         }
         e.kappa = whole(t, "kappa", 0, largest_kappa).value_or(0);
         e.rows = rows(t);
@@ -446,8 +534,11 @@ private:
         const auto sides = formula::parse_equation(e.ode, complaint_at(e.places));
         if (!sides) return;
         e.sides = *sides;
-        if (!names_exist(e.sides.left, e.places, false)) return;
-        if (!names_exist(e.sides.right, e.places, false)) return;
+        bool good = true;
+        for (const formula::Formula& side : {e.sides.left, e.sides.right}) {
+            good = names_exist(side, e.places) && check_constants(model_, side, complaint_at(e.places)) && good;
+        }
+        if (!good) return;
         check_dimension(model_, e, diagnostics_);
         model_.equations.push_back(std::move(e));
     }
@@ -458,23 +549,24 @@ private:
         f.at = position(t);
         const auto signal = string(t, "signal");
         const auto law = string(t, "law");
-        if (!signal || !law) {
-            error(t, "[[feedback]] needs signal and law", "e.g. signal = \"u\", law = \"K*(r-y)\"");
-            return;
-        }
+        if (!t.contains("signal") || !t.contains("law")) error(t, "[[feedback]] needs signal and law", "e.g. signal = \"u\", law = \"K*(r-y)\"");
+        if (!signal || !law) return;
         f.signal = *signal;
-        if (model_.signal(f.signal) == nullptr) error(*t.get("signal"), "'" + f.signal + "' is not a signal", "declare it under [signals]");
+        if (model_.signal(f.signal) == nullptr) error(*t.get("signal"), quoted(f.signal) + " is not a signal", "declare it under [signals]");
+        for (const Feedback& other : model_.feedback) {
+            if (other.signal == f.signal) error(*t.get("signal"), "a second law for " + quoted(f.signal), "one law computes a signal");
+        }
         f.law_text = *law;
         f.places = places_of_string(text_, position(*t.get("law")), law->size());
         const auto formula = formula::parse(f.law_text, complaint_at(f.places));
-        if (!formula || !names_exist(*formula, f.places, true)) return;
+        if (!formula || !names_exist(*formula, f.places) || !check_constants(model_, *formula, complaint_at(f.places))) return;
         f.law = *formula;
         model_.feedback.push_back(std::move(f));
     }
 
     /// Every name is declared, der() takes a signal and a whole order. Complains about each that is not.
-    bool names_exist(const formula::Formula& f, const std::vector<Position>& places, bool in_law) {
-        const auto place = [&](const formula::Formula& g) { return places[std::min(static_cast<std::size_t>(g->offset), places.size() - 1)]; };
+    bool names_exist(const formula::Formula& f, const std::vector<Position>& places) {
+        const auto place = [&](const formula::Formula& g) { return places[std::min(static_cast<std::size_t>(g->start), places.size() - 1)]; };
         if (f->kind == formula::Kind::name) {
             if (model_.signal(f->name) != nullptr || model_.constant(f->name) != nullptr || model_.parameter(f->name) != nullptr) return true;
             std::string right = "declare it under [signals], [constants] or [parameters]";
@@ -489,7 +581,7 @@ private:
         bool good = true;
         if (f->kind == formula::Kind::call && f->name == "der") {
             const formula::Formula& x = f->arguments[0];
-            if (x->kind != formula::Kind::name || (model_.signal(x->name) == nullptr && names_exist(x, places, in_law))) {
+            if (x->kind != formula::Kind::name || (model_.signal(x->name) == nullptr && names_exist(x, places))) {
                 error(place(x), "der() of something that is not a signal", "write der(x) of a signal x; expand products by hand");
                 return false;
             }
@@ -505,14 +597,7 @@ private:
             }
             return true;
         }
-        if (f->kind == formula::Kind::power && f->arguments[1]->kind == formula::Kind::number) {
-            const Rational& e = f->arguments[1]->value;
-            if (cln::abs(e) > formula::largest_exponent) {
-                error(place(f->arguments[1]), "the exponent is beyond " + std::to_string(formula::largest_exponent), "a model needs no such power");
-                return false;
-            }
-        }
-        for (const formula::Formula& a : f->arguments) good = names_exist(a, places, in_law) && good;
+        for (const formula::Formula& a : f->arguments) good = names_exist(a, places) && good;
         return good;
     }
 
@@ -525,6 +610,7 @@ private:
         const auto n = whole(t, "n", 1, largest_order);
         if (!t.contains("n")) error(t, "[transfer] without n", "add n, the order of the output's highest derivative");
         transfer.n = n.value_or(1);
+        const bool order_known = n.has_value();
         const toml::node* input = t.get("input");
         const bool several = input != nullptr && input->is_array();
         read_coefficients(t, transfer.coefficients);
@@ -532,21 +618,20 @@ private:
             TransferInput single;
             single.at = input != nullptr ? position(*input) : transfer.at;
             single.signal = string(t, "input").value_or("u");
-            read_order(t, transfer.n, single.m, single.m_at);
+            read_order(t, order_known ? transfer.n : largest_order, single.m, single.m_at);
             transfer.inputs.push_back(single);
         } else {
+            if (input->as_array()->empty()) error(*input, "no input", "leave it out where the input is u, or name it");
             if (t.contains("m")) error(*t.get("m"), "m beside [[transfer.input]]", "give each input its own m");
             each_table(t, "input", [&](const toml::table& entry) {
                 known_keys(entry, {"signal", "m", "unknowns", "known"});
                 TransferInput one;
-                one.at = position(entry);
                 const auto signal = string(entry, "signal");
-                if (!signal) {
-                    error(entry, "[[transfer.input]] without signal", "add signal = \"u\"");
-                    return;
-                }
+                if (!entry.contains("signal")) error(entry, "[[transfer.input]] without signal", "add signal = \"u\"");
+                if (!signal) return;
+                one.at = position(*entry.get("signal"));
                 one.signal = *signal;
-                read_order(entry, transfer.n, one.m, one.m_at);
+                read_order(entry, order_known ? transfer.n : largest_order, one.m, one.m_at);
                 read_coefficients(entry, one.coefficients);
                 transfer.inputs.push_back(one);
             });
@@ -560,9 +645,17 @@ private:
         e.at = transfer.at;
         if (diagnostics_.has_errors()) return;
         if (write_out(transfer, model_, e, diagnostics_)) {
-            check_dimension(model_, e, diagnostics_);
+            if (!knows_a_number(transfer)) check_dimension(model_, e, diagnostics_);
             model_.equations.push_back(std::move(e));
         }
+    }
+
+    /// True if a coefficient is known and not 0: the equation's text shows it without the unit that it has.
+    static bool knows_a_number(const Transfer& transfer) {
+        const auto in = [](const Coefficients& c) {
+            return std::any_of(c.known.begin(), c.known.end(), [](const KnownCoefficient& k) { return !cln::zerop(k.value); });
+        };
+        return in(transfer.coefficients) || std::any_of(transfer.inputs.begin(), transfer.inputs.end(), [&](const TransferInput& i) { return in(i.coefficients); });
     }
 
     void read_order(const toml::table& t, int n, int& m, Position& at) {
@@ -597,7 +690,16 @@ private:
     Diagnostics& diagnostics_;
     Model model_;
     std::map<std::string, std::string> names_;   // folded to lower case -> as declared
+    int complaints_ = 0;
 };
+
+/// toml++ says it of a line end in a string as of any control character.
+std::string toml_complaint(const toml::parse_error& e, const std::string& text, Position at) {
+    std::string what(e.description());
+    for (char& c : what) if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    if (what.find("control characters") != std::string::npos && at_line_end(text, at)) return "a text that is not closed on its line";
+    return "not TOML: " + what;
+}
 
 }  // namespace
 
@@ -630,16 +732,25 @@ int Model::parameter_index(const std::string& wanted) const {
 std::optional<Model> read(const std::string& path, bool strict, Diagnostics& diagnostics) {
     const auto text = read_text(path, largest_file, diagnostics);
     if (!text) return std::nullopt;
+    if (const auto at = not_utf8(*text)) {
+        diagnostics.error(path, *at, "not UTF-8", "save the file as UTF-8");
+        return std::nullopt;
+    }
+    if (const auto at = too_long_key(*text, longest_key)) {
+        diagnostics.error(path, *at, "a key of more than " + std::to_string(longest_key) + " parts", "a model needs no such key");
+        return std::nullopt;
+    }
     try {
         const toml::table root = toml::parse(std::string_view(*text), path);
         Reader reader(path, *text, strict, diagnostics);
         reader.read(root);
         if (diagnostics.has_errors()) return std::nullopt;
         return reader.take();
+    } catch (const TooMany&) {
+        return std::nullopt;
     } catch (const toml::parse_error& e) {
-        std::string what(e.description());
-        for (char& c : what) if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-        diagnostics.error(path, position(e.source()), "not TOML: " + what, "see the model file format in docs");
+        const Position at = within_line(*text, position(e.source()));
+        diagnostics.error(path, at, toml_complaint(e, *text, at), "see the model file format in docs");
         return std::nullopt;
     }
 }

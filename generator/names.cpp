@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "generator/formula.hpp"
+#include "generator/source_text.hpp"
 
 namespace algest::model {
 
@@ -37,14 +38,16 @@ bool contains(const std::array<std::string_view, N>& words, const std::string& w
 
 std::optional<NameFault> fault_of_name(const std::string& name) {
     if (name.empty()) return NameFault{"an empty name", "give it one"};
-    if (name.size() > 60) return NameFault{"a name of " + std::to_string(name.size()) + " characters", "use at most 60"};
-    if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
-        return NameFault{"'" + name + "' does not start with a letter", "names are letters, digits and _, a letter first"};
-    }
     for (const char c : name) {
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') {
-            return NameFault{"'" + name + "' is not a name", "names are letters, digits and _, a letter first"};
+            return NameFault{quoted(name) + " is not a name", "names are letters, digits and _, a letter first"};
         }
+    }
+    if (name.size() > static_cast<std::size_t>(formula::longest_name)) {
+        return NameFault{"a name of " + std::to_string(name.size()) + " characters", "use at most " + std::to_string(formula::longest_name)};
+    }
+    if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
+        return NameFault{"'" + name + "' does not start with a letter", "names are letters, digits and _, a letter first"};
     }
     if (name.find("__") != std::string::npos || name.back() == '_') {
         return NameFault{"'" + name + "' is reserved in C++", "leave out the double or trailing underscore"};
@@ -59,7 +62,7 @@ std::optional<NameFault> fault_of_model_name(const std::string& name) {
     const auto fine = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
     const bool shape = !name.empty() && name.size() <= 60 && name[0] >= 'a' && name[0] <= 'z' && name.back() != '_' &&
                        name.find("__") == std::string::npos && std::all_of(name.begin(), name.end(), fine);
-    if (!shape) return NameFault{"'" + name + "' is not a model name", "use lower case, digits and single _, a letter first: dc_motor"};
+    if (!shape) return NameFault{quoted(name) + " is not a model name", "use lower case, digits and single _, a letter first: dc_motor"};
     if (contains(cpp_words, name)) return NameFault{"'" + name + "' is a C++ keyword", "choose another name"};
     return std::nullopt;
 }

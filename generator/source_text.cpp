@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/source_text.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -56,6 +57,7 @@ struct Walker {
             ++place.column;
         }
     }
+    void skip_byte_order_mark() { if (looking_at("\xEF\xBB\xBF")) at = 3; }
     void steps(int count) { for (int i = 0; i < count; ++i) step(); }
 };
 
@@ -73,16 +75,106 @@ std::size_t skip_escape(Walker& w) {
     return code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
 }
 
+/// Moves behind the string that starts at the walker; behind its line where it is not closed.
+void skip_string(Walker& w) {
+    const char quote = w.peek();
+    const bool multiline = w.peek(1) == quote && w.peek(2) == quote;
+    w.steps(multiline ? 3 : 1);
+    while (w.at < w.text.size()) {
+        if (quote == '"' && w.peek() == '\\') {
+            w.steps(2);
+        } else if (w.peek() == quote && (!multiline || (w.peek(1) == quote && w.peek(2) == quote))) {
+            w.steps(multiline ? 3 : 1);
+            while (multiline && w.peek() == quote) w.step();   // """a"""" ends in a quote of its own
+            return;
+        } else if (!multiline && w.peek() == '\n') {
+            return;
+        } else {
+            w.step();
+        }
+    }
+}
+
 }  // namespace
+
+std::optional<Position> not_utf8(const std::string& text) {
+    Walker w{text};
+    w.skip_byte_order_mark();
+    while (w.at < text.size()) {
+        const unsigned char first = static_cast<unsigned char>(text[w.at]);
+        const std::size_t size = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+        const unsigned char second = static_cast<unsigned char>(w.peek(1));
+        const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+        const bool beyond = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);   // surrogates, U+110000
+        bool good = size > 0 && !overlong && !beyond;
+        for (std::size_t k = 1; k < size; ++k) good = good && is_continuation(w.peek(k));
+        if (!good) return w.place;
+        for (std::size_t k = 0; k < size; ++k) w.step();
+    }
+    return std::nullopt;
+}
+
+std::optional<Position> too_long_key(const std::string& text, int limit) {
+    Walker w{text};
+    w.skip_byte_order_mark();
+    int parts = 1;
+    while (w.at < text.size()) {
+        const char c = w.peek();
+        if (c == '#') {
+            while (w.at < text.size() && w.peek() != '\n') w.step();
+        } else if (c == '"' || c == '\'') {
+            skip_string(w);
+            continue;
+        } else if (c == '.') {
+            if (++parts > limit) return w.place;
+        } else if (c == '=' || c == ',' || c == '{' || c == '[' || c == ']' || c == '\n') {
+            parts = 1;
+        }
+        w.step();
+    }
+    return std::nullopt;
+}
+
+namespace {
+/// A walker at a place, or at the end of its line.
+Walker walker_at(const std::string& text, Position at) {
+    Walker w{text};
+    w.skip_byte_order_mark();
+    while (w.at < text.size() && w.place.line < at.line) w.step();
+    while (w.at < text.size() && w.place.column < at.column && w.peek() != '\n' && w.peek() != '\r') w.step();
+    return w;
+}
+}  // namespace
+
+Position within_line(const std::string& text, Position at) { return walker_at(text, at).place; }
+
+bool at_line_end(const std::string& text, Position at) {
+    const Walker w = walker_at(text, at);
+    return w.at >= text.size() || w.peek() == '\n' || w.peek() == '\r';
+}
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t most = 60;
+    std::size_t end = std::min(text.size(), most);
+    while (end < text.size() && end > 0 && is_continuation(text[end])) --end;
+    std::string out = "'";
+    for (std::size_t k = 0; k < end; ++k) {
+        const unsigned char c = static_cast<unsigned char>(text[k]);
+        const bool second_control = c == 0xC2 && k + 1 < end && static_cast<unsigned char>(text[k + 1]) < 0xA0;   // U+0080 to U+009F
+        if (second_control) ++k;
+        out += c < 0x20 || c == 0x7F || second_control ? '?' : text[k];
+    }
+    return out + (end < text.size() ? "...'" : "'");
+}
 
 std::vector<Position> places_of_string(const std::string& file_text, Position start, std::size_t value_size) {
     Walker w{file_text};
-    if (w.looking_at("\xEF\xBB\xBF")) w.at = 3;
+    w.skip_byte_order_mark();
     while (w.at < file_text.size() && (w.place.line < start.line || (w.place.line == start.line && w.place.column < start.column))) w.step();
 
     const char quote = w.peek();
     const bool basic = quote == '"';
-    const bool multiline = w.peek(1) == quote && w.peek(2) == quote && value_size > 0;
+    const bool multiline = w.peek(1) == quote && w.peek(2) == quote;
     w.steps(multiline ? 3 : 1);
     if (multiline && w.peek() == '\r') w.step();
     if (multiline && w.peek() == '\n') w.step();
@@ -100,6 +192,7 @@ std::vector<Position> places_of_string(const std::string& file_text, Position st
             places.insert(places.end(), skip_escape(w), here);
             continue;
         }
+        if (multiline && w.peek() == '\r' && w.peek(1) == '\n') w.step();   // CRLF is LF in the value
         places.push_back(here);
         w.step();
     }

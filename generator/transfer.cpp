@@ -8,6 +8,7 @@
 
 #include "generator/model.hpp"
 #include "generator/names.hpp"
+#include "generator/source_text.hpp"
 
 namespace algest::model {
 
@@ -16,7 +17,8 @@ namespace {
 /// A coefficient of the written-out sum: the name of an unknown, or a known value.
 struct Coefficient {
     std::string unknown;   ///< empty: known
-    exact::Rational value = 0;
+    exact::Rational value;
+    Position at;
 };
 
 /// Splits "b12" into its letters and 12; nullopt without digits at the end.
@@ -29,6 +31,11 @@ std::optional<IndexedName> indexed(const std::string& name) {
     while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1])) != 0) --digits;
     if (digits == 0 || digits == name.size() || name.size() - digits > 2) return std::nullopt;
     return IndexedName{name.substr(0, digits), std::stoi(name.substr(digits))};
+}
+
+std::string folded(std::string name) {
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return name;
 }
 
 std::string derivative_text(const std::string& signal, int order) {
@@ -52,11 +59,13 @@ std::string sum_text(const std::map<int, Coefficient>& coefficients, const std::
     return out;
 }
 
+bool is_one(const std::string& unit) { return unit.empty() || unit == "1" || unit == "-"; }
+
 /// "rad/(V.s^2)": unit of y over (unit of x times s^power).
 std::string quotient_unit(const std::string& y, const std::string& x, int power) {
-    std::string below = x;
+    std::string below = is_one(x) ? "" : x;
     if (power != 0) below += (below.empty() ? "" : ".") + std::string("s") + (power == 1 ? "" : "^" + std::to_string(power));
-    const std::string above = y.empty() ? "1" : y.find('/') == std::string::npos ? y : "(" + y + ")";
+    const std::string above = is_one(y) ? "1" : y.find('/') == std::string::npos ? y : "(" + y + ")";
     if (below.empty()) return above;
     const bool plain = below.find_first_of("./") == std::string::npos;
     return above + "/" + (plain ? below : "(" + below + ")");
@@ -68,27 +77,21 @@ public:
         : transfer_(transfer), model_(model), equation_(equation), diagnostics_(diagnostics) {}
 
     bool write() {
-        if (model_.signal(transfer_.output) == nullptr) return fail(transfer_.output_at, "'" + transfer_.output + "' is not a signal", "declare it under [signals], or name the output");
-        const bool several = transfer_.inputs.size() > 1;
-        for (const TransferInput& input : transfer_.inputs) {
-            if (model_.signal(input.signal) == nullptr) return fail(input.at, "'" + input.signal + "' is not a signal", "declare it under [signals], or name the input");
-        }
+        if (!signals_exist()) return false;
         inputs_.resize(transfer_.inputs.size());
-        for (const UnknownCoefficient& u : transfer_.coefficients.unknowns) if (!place(u.name, u.at, Coefficient{u.name, 0}, -1)) return false;
-        for (const KnownCoefficient& k : transfer_.coefficients.known) if (!place(k.name, k.at, Coefficient{"", k.value}, -1)) return false;
-        for (std::size_t i = 0; i < transfer_.inputs.size(); ++i) {
-            for (const UnknownCoefficient& u : transfer_.inputs[i].coefficients.unknowns) if (!place(u.name, u.at, Coefficient{u.name, 0}, static_cast<int>(i))) return false;
-            for (const KnownCoefficient& k : transfer_.inputs[i].coefficients.known) if (!place(k.name, k.at, Coefficient{"", k.value}, static_cast<int>(i))) return false;
-        }
-        output_.try_emplace(transfer_.n, Coefficient{"", 1});
-        if (!complete(output_, "a", transfer_.n, transfer_.at)) return false;
+        place(transfer_.coefficients, -1);
+        for (std::size_t i = 0; i < transfer_.inputs.size(); ++i) place(transfer_.inputs[i].coefficients, static_cast<int>(i));
+        if (failed_) return false;
+        output_.try_emplace(transfer_.n, Coefficient{"", 1, transfer_.at});
+        complete(output_, "a", transfer_.n, transfer_.at);
         for (std::size_t i = 0; i < inputs_.size(); ++i) {
-            if (!complete(inputs_[i], several ? "its b" : "b", transfer_.inputs[i].m, transfer_.inputs[i].m_at)) return false;
+            complete(inputs_[i], transfer_.inputs.size() > 1 ? "its b" : "b", transfer_.inputs[i].m, transfer_.inputs[i].m_at);
         }
         const Coefficient& leading = output_.at(transfer_.n);
         if (leading.unknown.empty() && cln::zerop(leading.value)) {
-            return fail(transfer_.at, "the coefficient of the highest derivative is 0", "lower n, or leave a" + std::to_string(transfer_.n) + " out: it is 1");
+            fail(leading.at, "the coefficient of the highest derivative is 0", "lower n, or leave a" + std::to_string(transfer_.n) + " out: it is 1");
         }
+        if (failed_) return false;
         add_parameters();
         equation_.ode = sum_text(output_, transfer_.output) + " = ";
         std::string right;
@@ -106,45 +109,71 @@ public:
     }
 
 private:
-    bool fail(Position at, const std::string& what, const std::string& right) {
+    void fail(Position at, const std::string& what, const std::string& right) {
         diagnostics_.error(model_.path, at, what, right);
-        return false;
+        failed_ = true;
     }
 
-    /// Puts one coefficient in its sum. input -1: the list of [transfer] itself.
-    bool place(const std::string& name, Position at, const Coefficient& coefficient, int input) {
-        const auto split = indexed(name);
-        const bool several = transfer_.inputs.size() > 1 || input >= 0;
-        if (!split) return fail(at, "'" + name + "' does not end in the order of a derivative", "write e.g. a0, a1, b0");
-        if (!coefficient.unknown.empty()) {
-            if (const auto fault = fault_of_name(name)) return fail(at, fault->what, fault->right);
+    bool signals_exist() {
+        std::set<std::string> seen = {transfer_.output};
+        if (model_.signal(transfer_.output) == nullptr) fail(transfer_.output_at, quoted(transfer_.output) + " is not a signal", "declare it under [signals], or name the output");
+        for (const TransferInput& input : transfer_.inputs) {
+            if (model_.signal(input.signal) == nullptr) fail(input.at, quoted(input.signal) + " is not a signal", "declare it under [signals], or name the input");
+            else if (!seen.insert(input.signal).second) fail(input.at, quoted(input.signal) + " stands twice in the equation", "name it once, as output or as input");
         }
-        const bool of_output = input < 0 && (split->letters == "a" || several);
-        if (input < 0 && several && split->letters != "a") return fail(at, "'" + name + "' beside [[transfer.input]]", "list it with its input");
+        return !failed_;
+    }
+
+    /// Puts coefficients in their sums. input -1: the lists of [transfer] itself.
+    void place(const Coefficients& list, int input) {
+        for (const UnknownCoefficient& u : list.unknowns) {
+            if (const auto fault = fault_of_name(u.name)) fail(u.at, fault->what, fault->right);
+            else if (!unknowns_.insert(u.name).second) named_twice(u.name, u.at);
+            else if (!is_free(u.name)) fail(u.at, "'" + u.name + "' is a signal, a constant or another unknown as well, or differs by case alone", "rename one of them");
+            else place(u.name, Coefficient{u.name, 0, u.at}, input);
+        }
+        for (const KnownCoefficient& k : list.known) place(k.name, Coefficient{"", k.value, k.at}, input);
+    }
+
+    void place(const std::string& name, const Coefficient& coefficient, int input) {
+        const Position at = coefficient.at;
+        const auto split = indexed(name);
+        if (!split) return fail(at, quoted(name) + " does not end in the order of a derivative", "write e.g. a0, a1, b0");
+        const bool several = transfer_.inputs.size() > 1;
+        const bool of_output = input < 0 && split->letters == "a";
+        if (input < 0 && several && !of_output) return fail(at, quoted(name) + " beside [[transfer.input]]", "list it with its input");
         const std::size_t which = input < 0 ? 0 : static_cast<std::size_t>(input);
         const int most = of_output ? transfer_.n : transfer_.inputs[which].m;
         if (split->order > most) {
-            return fail(at, "'" + name + "' belongs to a derivative of order " + std::to_string(split->order) + ", above " + (of_output ? "n = " : "m = ") + std::to_string(most),
+            return fail(at, quoted(name) + " belongs to a derivative of order " + std::to_string(split->order) + ", above " + (of_output ? "n = " : "m = ") + std::to_string(most),
                         "raise the order, or remove it");
         }
         std::map<int, Coefficient>& sum = of_output ? output_ : inputs_[which];
-        if (!names_.insert(name).second || !sum.try_emplace(split->order, coefficient).second) {
-            return fail(at, "'" + name + "' is named twice", "list each coefficient once, as unknown or as known");
-        }
-        const bool clash = model_.signal(name) != nullptr || model_.constant(name) != nullptr;
-        if (!coefficient.unknown.empty() && clash) return fail(at, "'" + name + "' is a signal or a constant as well", "rename one of them");
-        return true;
+        if (!sum.try_emplace(split->order, coefficient).second) named_twice(name, at);
+    }
+
+    void named_twice(const std::string& name, Position at) {
+        fail(at, quoted(name) + " is named twice", "list each coefficient once, as unknown or as known");
+    }
+
+    /// No signal, constant, other parameter or earlier unknown has the name, or one that differs by case alone. A parameter
+    /// of exactly this name is the same: [parameters] gives it a unit and an initial value.
+    bool is_free(const std::string& name) const {
+        std::set<std::string> others;
+        for (const Signal& s : model_.signals) others.insert(folded(s.name));
+        for (const Constant& c : model_.constants) others.insert(folded(c.name));
+        for (const Parameter& p : model_.parameters) if (p.name != name) others.insert(folded(p.name));
+        for (const std::string& u : unknowns_) if (u != name) others.insert(folded(u));
+        return others.count(folded(name)) == 0;
     }
 
     /// Every coefficient up to `most` must have been named.
-    bool complete(const std::map<int, Coefficient>& sum, const std::string& letter, int most, Position at) {
+    void complete(const std::map<int, Coefficient>& sum, const std::string& letter, int most, Position at) {
         for (int i = 0; i <= most; ++i) {
-            if (sum.count(i) == 0) {
-                const std::string name = letter + std::to_string(i);
-                return fail(at, "coefficient " + name + " is neither unknown nor known", "list it under unknowns, or write known = { " + (letter == "its b" ? "b" + std::to_string(i) : name) + " = 0 }");
-            }
+            if (sum.count(i) > 0) continue;
+            const std::string name = letter + std::to_string(i);
+            fail(at, "coefficient " + name + " is neither unknown nor known", "list it under unknowns, or write known = { " + (letter == "its b" ? "b" + std::to_string(i) : name) + " = 0 }");
         }
-        return true;
     }
 
     void add_parameters() {
@@ -156,11 +185,11 @@ private:
                 if (c.unknown.empty() || model_.parameter(c.unknown) != nullptr) continue;
                 Parameter p;
                 p.name = c.unknown;
-                p.at = transfer_.at;
+                p.at = c.at;
                 const std::string unit = model_.signal(signal)->unit;
                 const bool own = signal == transfer_.output;
                 if (monic && (own || (!unit.empty() && !output_unit.empty()))) {
-                    p.unit = own ? quotient_unit("", "", transfer_.n - order) : quotient_unit(output_unit, unit == "1" ? "" : unit, transfer_.n - order);
+                    p.unit = own ? quotient_unit("", "", transfer_.n - order) : quotient_unit(output_unit, unit, transfer_.n - order);
                 }
                 model_.parameters.push_back(p);
             }
@@ -175,7 +204,8 @@ private:
     Diagnostics& diagnostics_;
     std::map<int, Coefficient> output_;
     std::vector<std::map<int, Coefficient>> inputs_;
-    std::set<std::string> names_;
+    std::set<std::string> unknowns_;
+    bool failed_ = false;
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace generated {
 
 /// Estimates a1, a2, b0 on line.
 ///
-/// Feed one Sample every 1/1000 s: step() does all; or push() in the interrupt and estimate() in the background.
+/// Feed one Sample every 0.001 s: step() does all; or push() in the interrupt and estimate() in the background.
 /// First `ok` at sample 3001 (3 s) after a start or a refused sample. Until then, and whenever the status is not `ok`, the last good
 /// values are held (at first the initial values of the model file); `status` says which it is.
 ///

@@ -23,8 +23,8 @@ namespace generated {
 
 /// Estimates lambda1, lambda2, lambda3 on line.
 ///
-/// Feed one Sample every 1/10000 s: step() does all; or push() in the interrupt and estimate() in the background.
-/// First `ok` at sample 401 (1/25 s) after a start or a refused sample. Until then, and whenever the status is not `ok`, the last good
+/// Feed one Sample every 0.0001 s: step() does all; or push() in the interrupt and estimate() in the background.
+/// First `ok` at sample 401 (0.04 s) after a start or a refused sample. Until then, and whenever the status is not `ok`, the last good
 /// values are held (at first the initial values of the model file); `status` says which it is.
 ///
 /// Contract: no heap, no exceptions, no virtual calls, no loops whose length depends on data. Trivially

@@ -23,8 +23,8 @@ namespace generated {
 
 /// Estimates R, L, K on line.
 ///
-/// Feed one Sample every 1/1000 s: step() does all; or push() in the interrupt and estimate() in the background.
-/// First `ok` at sample 401 (2/5 s) after a start or a refused sample. Until then, and whenever the status is not `ok`, the last good
+/// Feed one Sample every 0.001 s: step() does all; or push() in the interrupt and estimate() in the background.
+/// First `ok` at sample 401 (0.4 s) after a start or a refused sample. Until then, and whenever the status is not `ok`, the last good
 /// values are held (at first the initial values of the model file); `status` says which it is.
 ///
 /// Contract: no heap, no exceptions, no virtual calls, no loops whose length depends on data. Trivially
