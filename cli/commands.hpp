@@ -49,4 +49,14 @@ struct ReplayOptions {
 /// Runs the estimator over the recording and prints the parameters.
 int replay(const ReplayOptions& options);
 
+struct SimulateOptions {
+    std::string model;
+    std::string recording;
+    std::string output;             ///< CSV of every simulated signal; empty: none
+    std::vector<std::string> set;   ///< NAME=VALUE in place of a parameter's initial value
+    bool json = false;
+};
+/// Runs the model freely over the inputs of the recording and says how far it is from what was measured. 1: the run diverged.
+int simulate(const SimulateOptions& options);
+
 }  // namespace algest::cli

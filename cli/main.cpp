@@ -83,6 +83,23 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
     return command;
 }
 
+CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
+    CLI::App* command = app.add_subcommand("simulate", "Runs a model freely over the inputs of a recording");
+    command->add_option("MODEL", options.model, "model file")->required();
+    command->add_option("RECORDING", options.recording, "CSV file with a header `name [unit]` and a column `t [s]`")
+        ->required();
+    command->add_option("-o,--output", options.output, "write every simulated signal")->type_name("FILE.csv");
+    command->add_option("--set", options.set, "a parameter's value, in place of its `initial`")->type_name("NAME=VALUE")->allow_extra_args(false);
+    command->add_flag("--json", options.json, json_text);
+    command->footer(
+        "nrmse is the error's rms over max(std, 0.1 rms) of the measured signal.\n"
+        "Exit code: 0 done, 1 the run diverged, 2 a model or a file is at fault.\n\n"
+        "Examples:\n"
+        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv\n"
+        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 -o run.csv");
+    return command;
+}
+
 /// What goes wrong outside any command: one line for people, the usual object for programs.
 int complain(const std::string& what, const std::string& right, bool json) {
     algest::Diagnostics diagnostics;
@@ -99,10 +116,12 @@ int parse_and_run(int argc, char** argv, bool json) {
     DeriveOptions derive_options;
     GenerateOptions generate_options;
     ReplayOptions replay_options;
+    SimulateOptions simulate_options;
     const CLI::App* check_command = add_check(app, check_options);
     const CLI::App* derive_command = add_derive(app, derive_options);
     const CLI::App* generate_command = add_generate(app, generate_options);
     const CLI::App* replay_command = add_replay(app, replay_options);
+    const CLI::App* simulate_command = add_simulate(app, simulate_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -114,6 +133,7 @@ int parse_and_run(int argc, char** argv, bool json) {
     if (derive_command->parsed()) return derive(derive_options);
     if (generate_command->parsed()) return generate(generate_options);
     if (replay_command->parsed()) return replay(replay_options);
+    if (simulate_command->parsed()) return simulate(simulate_options);
     return exit_bad_input;
 }
 

@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
+#include "cli/output_file.hpp"
 #include "cli/progress.hpp"
 #include "generator/generate.hpp"
 #include "lab/recording.hpp"
@@ -67,25 +66,11 @@ std::string summary_text(const plan::Plan& plan, const lab::Replay& replay, cons
     return out;
 }
 
-/// The CSV must not take the place of what it was made from.
-bool output_is_input(const ReplayOptions& options, Diagnostics& diagnostics) {
-    for (const std::string& input : {options.model, options.recording}) {
-        std::error_code no_matter;
-        if (options.output.empty() || !std::filesystem::is_regular_file(options.output, no_matter) ||
-            !std::filesystem::equivalent(options.output, input, no_matter)) {
-            continue;
-        }
-        diagnostics.error(options.output, {}, "-o names the file that is read", "another file");
-        return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 int replay(const ReplayOptions& options) {
     Diagnostics diagnostics;
-    if (output_is_input(options, diagnostics)) return fail(diagnostics, options.json);
+    if (output_is_input(options.output, {options.model, options.recording}, diagnostics)) return fail(diagnostics, options.json);
     lab::Stretch stretch;
     stretch.from = options.from.value_or(stretch.from);
     stretch.to = options.to.value_or(stretch.to);

@@ -229,7 +229,7 @@ private:
     }
 
     void tables_and_rows(const RowWeights& weights) {
-        TapeBuilder tape(model_, plan_.scalar, input_of_signal_);
+        TapeBuilder tape(model_, plan_.scalar, {input_of_signal_});
         for (std::size_t r = 0; r < rows_.size(); ++r) {
             const std::size_t e = static_cast<std::size_t>(rows_[r].equation);
             plan::Row row{equation_index_[e], rows_[r].p, {}};
@@ -276,8 +276,7 @@ private:
             unknowns.push_back(u.name);
             plan_.lumped.push_back({u.name, text(u.meaning, parameters)});
         }
-        std::vector<int> none;
-        TapeBuilder map(model_, plan_.scalar, none);
+        TapeBuilder map(model_, plan_.scalar, {});
         for (std::size_t k = 0; k < model_.parameters.size(); ++k) {
             const model::Parameter& p = model_.parameters[k];
             if (!lumping_.inverse[k]) continue;

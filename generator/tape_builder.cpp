@@ -82,15 +82,15 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
         case Kind::name: {
             if (const model::Constant* c = model_.constant(f->name)) return constant(c->value);
             const int signal = model_.signal_index(f->name);
-            if (signal < 0) throw std::logic_error("a parameter inside a signal: " + f->name);
-            return add(delayed ? Op::previous : Op::input, input_of_signal_[static_cast<std::size_t>(signal)]);
+            if (signal >= 0) return add(delayed ? Op::previous : Op::input, inputs_.signal[static_cast<std::size_t>(signal)]);
+            if (inputs_.parameter.empty()) throw std::logic_error("a parameter inside a signal: " + f->name);
+            return add(Op::input, inputs_.parameter[static_cast<std::size_t>(model_.parameter_index(f->name))]);
         }
         case Kind::negate: return add(Op::neg, formula(f->arguments[0], delayed));
         case Kind::call: {
-            if (f->name == "der") {
-                const int signal = model_.signal_index(f->arguments[0]->name);
-                return add(Op::derivative, input_of_signal_[static_cast<std::size_t>(signal)]);
-            }
+            if (f->name == "der") return derivative(f);
+            const auto relay = inputs_.relay.find(f.get());
+            if (relay != inputs_.relay.end()) return add(Op::input, relay->second);
             const int a = formula(f->arguments[0], delayed);
             return add(op_of_function(f->name), a, f->arguments.size() > 1 ? formula(f->arguments[1], delayed) : -1);
         }
@@ -113,6 +113,14 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
         }
     }
     throw std::logic_error("a formula of no kind");
+}
+
+int TapeBuilder::derivative(const formula::Formula& der) {
+    const int signal = model_.signal_index(der->arguments[0]->name);
+    const int order = der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1;
+    const auto known = inputs_.derivative.find({signal, order});
+    if (known != inputs_.derivative.end()) return add(Op::input, known->second);
+    return add(Op::derivative, inputs_.signal[static_cast<std::size_t>(signal)]);
 }
 
 int TapeBuilder::product(const equation::OperatorForm& form, const equation::Product& product, bool delayed) {

@@ -10,10 +10,24 @@
 
 namespace algest {
 
+/// Which inputs of the tape the names of a model are.
+struct TapeInputs {
+    std::vector<int> signal;                               ///< by the model's signals; -1: not an input
+    std::vector<int> parameter = {};                       ///< by the model's parameters; empty: they may not occur
+    std::map<std::pair<int, int>, int> derivative = {};    ///< (signal, order); one that is not here is left to the parabola filter
+    std::map<const formula::Node*, int> relay = {};        ///< calls of sgn() whose value is an input; none else
+};
+
 class TapeBuilder {
 public:
-    TapeBuilder(const model::Model& model, plan::Scalar scalar, std::vector<int> input_of_signal)
-        : model_(model), scalar_(scalar), input_of_signal_(std::move(input_of_signal)) {}
+    TapeBuilder(const model::Model& model, plan::Scalar scalar, TapeInputs inputs)
+        : model_(model), scalar_(scalar), inputs_(std::move(inputs)) {}
+
+    /// A formula; delayed: as below.
+    int formula(const formula::Formula& f, bool delayed = false);
+
+    /// left - right.
+    int difference(int left, int right) { return add(plan::Op::sub, left, right); }
 
     /// A product of atoms. delayed: every signal one sample late, derivatives by the parabola filter.
     int product(const equation::OperatorForm& form, const equation::Product& product, bool delayed);
@@ -36,14 +50,14 @@ private:
     int add(plan::Op op, int a = -1, int b = -1);
     int constant(const exact::Rational& value);
     int power(int base, int exponent);
-    int formula(const formula::Formula& f, bool delayed);
+    int derivative(const formula::Formula& der);
     int polynomial(const Polynomial& p);
     bool is_constant(int k) const { return entries_[static_cast<std::size_t>(k)].op == plan::Op::constant; }
     const exact::Rational& value(int k) const { return entries_[static_cast<std::size_t>(k)].value; }
 
     const model::Model& model_;
     plan::Scalar scalar_;
-    std::vector<int> input_of_signal_;
+    TapeInputs inputs_;
     std::vector<Entry> entries_;
     std::map<std::tuple<plan::Op, int, int>, int> known_;
     std::vector<std::pair<exact::Rational, int>> constants_;

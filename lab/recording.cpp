@@ -310,4 +310,15 @@ std::optional<std::vector<double>> signal_values(const Recording& recording, con
     return values;
 }
 
+bool check_period(const Recording& recording, const std::string& model, double period, Diagnostics& diagnostics) {
+    const double allowed = period_tolerance * period + recording.period_uncertainty;
+    if (std::abs(recording.period - period) <= allowed) return true;
+    diagnostics.error(
+        recording.file, {1, recording.time_place},
+        fmt::format("the recording is sampled every {:.9g} s, the model `{}` every {:.9g} s", recording.period, model, period),
+        fmt::format("`period = {:.9g}` under [sampling] of the model, or the recording resampled to the model's period",
+                    recording.period));
+    return false;
+}
+
 }  // namespace algest::lab

@@ -54,4 +54,11 @@ struct WantedSignal {
 std::optional<std::vector<double>> signal_values(const Recording& recording, const WantedSignal& wanted,
                                                  Diagnostics& diagnostics);
 
+/// Difference of the recording's period from the model's that is accepted, relative. A wrong period falsifies a
+/// derivative of order n by n times that: far less than any estimate here is good for, and far more than decimals do.
+constexpr double period_tolerance = 1e-4;
+
+/// True when the recording is sampled as the model says; else an error in `diagnostics`. period in s.
+bool check_period(const Recording& recording, const std::string& model, double period, Diagnostics& diagnostics);
+
 }  // namespace algest::lab

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lab/csv_text.hpp"
 #include "lab/host_estimator.hpp"
 
 namespace algest::lab {
@@ -27,18 +28,6 @@ RowRange rows_of(const Recording& recording, const Stretch& stretch) {
     const auto begin = std::lower_bound(t.begin(), t.end(), stretch.from);
     const auto end = std::upper_bound(begin, t.end(), stretch.to);
     return {static_cast<std::size_t>(begin - t.begin()), static_cast<std::size_t>(end - t.begin())};
-}
-
-bool check_period(const plan::Plan& plan, const Recording& recording, Diagnostics& diagnostics) {
-    const double allowed = period_tolerance * plan.period + recording.period_uncertainty;
-    if (std::abs(recording.period - plan.period) <= allowed) return true;
-    diagnostics.error(
-        recording.file, {1, recording.time_place},
-        fmt::format("the recording is sampled every {:.9g} s, the model `{}` every {:.9g} s", recording.period, plan.name,
-                    plan.period),
-        fmt::format("`period = {:.9g}` under [sampling] of the model, or the recording resampled to the model's period",
-                    recording.period));
-    return false;
 }
 
 bool check_length(const plan::Plan& plan, const Recording& recording, RowRange rows, Diagnostics& diagnostics) {
@@ -98,25 +87,11 @@ std::optional<double> median(std::vector<double> values) {
     return std::midpoint(*std::max_element(values.begin(), middle), *middle);
 }
 
-/// Shortest digits that read back to the same value in S; nothing for what is not finite.
-template <class S>
-void append_number(std::string& out, double value) {
-    if (std::isfinite(value)) fmt::format_to(std::back_inserter(out), "{}", static_cast<S>(value));
-}
-
-/// A field of a header: in quotes where a comma or quote in it asks for them.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 template <class S>
 std::string csv(const plan::Plan& plan, const Replay& replay) {
     std::string out = "t [s],status,condition";
     for (const plan::Parameter& p : plan.parameters) {
-        out += "," + csv_field(p.unit.empty() ? p.name : p.name + " [" + p.unit + "]");
+        out += "," + csv_heading(p.name, p.unit);
     }
     out += "\n";
     for (std::size_t k = 0; k < replay.samples(); ++k) {
@@ -146,7 +121,7 @@ std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording,
     std::vector<std::vector<double>> inputs;
     const RowRange rows = rows_of(recording, stretch);
     const bool signals_fit = read_inputs(plan, recording, inputs, diagnostics);
-    const bool period_fits = check_period(plan, recording, diagnostics);
+    const bool period_fits = check_period(recording, plan.name, plan.period, diagnostics);
     if (!signals_fit || !period_fits || !check_length(plan, recording, rows, diagnostics)) return std::nullopt;
     return plan.scalar == plan::Scalar::float64 ? run<double>(plan, recording, inputs, rows, progress)
                                                 : run<float>(plan, recording, inputs, rows, progress);

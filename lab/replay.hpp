@@ -46,10 +46,6 @@ struct ReplaySummary {
 /// Told now and then how much is done, 0 to 1.
 using ProgressReport = std::function<void(double)>;
 
-/// Difference of the recording's period from the model's that replay accepts, relative. A wrong period falsifies a
-/// derivative of order n by n times that: far less than any estimate here is good for, and far more than decimals do.
-constexpr double period_tolerance = 1e-4;
-
 /// Samples up to the first estimate: the window, the instants of S(t), the sample that primes a delayed model.
 int samples_to_first_estimate(const plan::Plan& plan);
 

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/free_run.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+
+#include "generator/tape.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+using State = std::vector<double>;
+using Stepper = boost::numeric::odeint::runge_kutta_dopri5<State>;
+
+constexpr double largest_excursion = 1e6;      ///< times the scale: diverged
+constexpr int most_steps_in_a_period = 20000;  ///< stiffer than that is a diverged run too
+
+/// Where a relay stands.
+enum class Mode { negative, holding, positive };
+
+class Run {
+public:
+    Run(const OdeSystem& system, const std::vector<double>& parameters, const Drive& drive, const RunOptions& options)
+        : system_(system), drive_(drive), options_(options), inputs_(static_cast<std::size_t>(system.inputs), 0.0),
+          values_(system.residual.operations.size()), results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
+          mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())) {
+        for (std::size_t p = 0; p < parameters.size(); ++p) inputs_[static_cast<std::size_t>(system.parameter_input) + p] = parameters[p];
+        for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
+        scale_ = options.scale;
+        scale_.resize(system.states.size(), 1.0);
+    }
+
+    FreeRun over(const std::vector<double>& initial, const std::function<void(double)>& progress) {
+        FreeRun out{std::vector<std::vector<double>>(drive_.values.size()), 0};
+        State x = initial;
+        step_ = drive_.period;
+        for (std::size_t k = 0; k < drive_.samples; ++k) {
+            sample_ = k;
+            set_state(x);
+            set_driven(0.0);
+            apply_laws();
+            record(out);
+            ++out.samples;
+            if (k + 1 == drive_.samples) break;
+            choose_modes(x);
+            if (!advance(x)) break;
+            if (progress && k % 1024 == 0) progress(static_cast<double>(k) / static_cast<double>(drive_.samples));
+        }
+        return out;
+    }
+
+private:
+    std::size_t input_of(const StateEntry& entry) const {
+        if (entry.order == 0) return static_cast<std::size_t>(entry.signal);
+        const auto m = static_cast<std::size_t>(std::find(system_.moving.begin(), system_.moving.end(), entry.signal) - system_.moving.begin());
+        return static_cast<std::size_t>(system_.derivative_input[m][static_cast<std::size_t>(entry.order) - 1]);
+    }
+
+    void set_state(const State& x) {
+        for (std::size_t i = 0; i < x.size(); ++i) inputs_[entry_input_[i]] = x[i];
+    }
+
+    /// Driven signals at `fraction` of the period that starts at the present sample.
+    void set_driven(double fraction) {
+        for (const int s : system_.driven) {
+            const std::vector<double>& v = drive_.values[static_cast<std::size_t>(s)];
+            const bool held = drive_.held[static_cast<std::size_t>(s)] || sample_ + 1 >= v.size();
+            inputs_[static_cast<std::size_t>(s)] = held ? v[sample_] : v[sample_] + fraction * (v[sample_ + 1] - v[sample_]);
+        }
+    }
+
+    void apply_laws() {
+        for (const Law& law : system_.laws) {
+            std::vector<double> values(law.tape.operations.size());
+            double result = 0;
+            plan::evaluate<double>(law.tape, inputs_.data(), nullptr, nullptr, values.data(), &result);
+            inputs_[static_cast<std::size_t>(law.signal)] = result;
+        }
+    }
+
+    void record(FreeRun& out) const {
+        const auto keep = [&](int signal) { out.signals[static_cast<std::size_t>(signal)].push_back(inputs_[static_cast<std::size_t>(signal)]); };
+        for (const int s : system_.moving) keep(s);
+        for (const Law& law : system_.laws) keep(law.signal);
+    }
+
+    void evaluate() { plan::evaluate<double>(system_.residual, inputs_.data(), nullptr, nullptr, values_.data(), results_.data()); }
+
+    std::size_t highest_input(std::size_t m) const { return static_cast<std::size_t>(system_.derivative_input[m].back()); }
+
+    /// Highest derivatives at the present inputs and relays: residual = r0 + mass * h = 0.
+    Eigen::VectorXd highest() {
+        const std::size_t count = system_.moving.size();
+        for (std::size_t m = 0; m < count; ++m) inputs_[highest_input(m)] = 0.0;
+        evaluate();
+        Eigen::VectorXd residual(static_cast<Eigen::Index>(count));
+        for (std::size_t m = 0; m < count; ++m) residual[static_cast<Eigen::Index>(m)] = results_[m];
+        if (!factored_ || !system_.constant_mass) {
+            for (std::size_t m = 0; m < count; ++m) {
+                inputs_[highest_input(m)] = 1.0;
+                evaluate();
+                for (std::size_t e = 0; e < count; ++e) mass_(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(m)) = results_[e] - residual[static_cast<Eigen::Index>(e)];
+                inputs_[highest_input(m)] = 0.0;
+            }
+            solver_.compute(mass_);
+            factored_ = true;
+        }
+        return solver_.solve(-residual);
+    }
+
+    /// dx/dt with the relays as they are set.
+    void rate_as_set(State& rate) {
+        const Eigen::VectorXd h = highest();
+        std::size_t i = 0;
+        for (std::size_t m = 0; m < system_.moving.size(); ++m) {
+            for (int order = 0; order < system_.highest[m]; ++order, ++i) {
+                rate[i] = order + 1 < system_.highest[m] ? inputs_[static_cast<std::size_t>(system_.derivative_input[m][static_cast<std::size_t>(order)])] : h[static_cast<Eigen::Index>(m)];
+            }
+        }
+    }
+
+    double& relay(std::size_t r) { return inputs_[static_cast<std::size_t>(system_.relay_input) + r]; }
+    double relay_argument(std::size_t r) const { return results_[static_cast<std::size_t>(system_.relays[r].argument)]; }
+
+    /// d(argument)/dt along the motion, with the relays as they are set.
+    double argument_rate(std::size_t r, const State& x) {
+        State rate(x.size());
+        set_state(x);
+        rate_as_set(rate);
+        evaluate();
+        const double here = relay_argument(r);
+        double largest = 0;
+        for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(rate[i]) / scale_[i]);
+        if (!(largest > 0)) return 0.0;
+        const double h = 1e-7 / largest;
+        State ahead = x;
+        for (std::size_t i = 0; i < x.size(); ++i) ahead[i] += h * rate[i];
+        set_state(ahead);
+        evaluate();
+        const double there = relay_argument(r);
+        set_state(x);
+        return (there - here) / h;
+    }
+
+    /// The value between -1 and 1 that keeps the argument where it is; beyond them where none does.
+    double holding_value(std::size_t r, const State& x) {
+        relay(r) = 1.0;
+        const double up = argument_rate(r, x);
+        relay(r) = -1.0;
+        const double down = argument_rate(r, x);
+        // The argument's rate is linear in the relay: down + (value + 1) (up - down) / 2.
+        return up == down ? 0.0 : -(up + down) / (up - down);
+    }
+
+    /// Sets every relay for the rate at x.
+    void set_relays(const State& x) {
+        for (std::size_t r = 0; r < modes_.size(); ++r) {
+            if (modes_[r] != Mode::holding) relay(r) = modes_[r] == Mode::positive ? 1.0 : -1.0;
+        }
+        for (std::size_t r = 0; r < modes_.size(); ++r) {
+            if (modes_[r] == Mode::holding) relay(r) = std::clamp(holding_value(r, x), -1.0, 1.0);
+        }
+    }
+
+    void rate(const State& x, State& out, double fraction) {
+        set_driven(fraction);
+        set_state(x);
+        set_relays(x);
+        set_state(x);
+        rate_as_set(out);
+    }
+
+    double argument_at(std::size_t r, const State& x, double fraction) {
+        set_driven(fraction);
+        set_state(x);
+        evaluate();
+        return relay_argument(r);
+    }
+
+    /// Beyond this an argument is not zero: rounding of a located switch.
+    double argument_tolerance(std::size_t r) const { return 1e-9 * std::max(argument_scale_.size() > r ? argument_scale_[r] : 0.0, 1e-12); }
+
+    /// At the start of a period, where inputs may jump: on which side each relay is, or whether it holds.
+    void choose_modes(const State& x) {
+        argument_scale_.resize(modes_.size(), 0.0);
+        for (std::size_t r = 0; r < modes_.size(); ++r) {
+            const double g = argument_at(r, x, 0.0);
+            argument_scale_[r] = std::max(argument_scale_[r], std::abs(g));
+            if (std::abs(g) > argument_tolerance(r)) modes_[r] = g > 0 ? Mode::positive : Mode::negative;
+            else choose_at_zero(r, x);
+        }
+    }
+
+    /// With the argument at zero: it holds where both sides push it back, else it leaves to the side that pulls.
+    void choose_at_zero(std::size_t r, const State& x) {
+        set_relays(x);
+        const double value = holding_value(r, x);
+        relay(r) = 1.0;
+        const double up = argument_rate(r, x);
+        if (std::abs(value) <= 1.0 && up <= 0) modes_[r] = Mode::holding;
+        else modes_[r] = up > 0 ? Mode::positive : Mode::negative;
+    }
+
+    bool finite(const State& x) const {
+        for (std::size_t i = 0; i < x.size(); ++i) if (!(std::abs(x[i]) <= largest_excursion * scale_[i])) return false;
+        return true;
+    }
+
+    /// One step of size h from (x, t in the period); the largest error over the states, relative to the tolerance.
+    double attempt(const State& x, double t, double h, State& next) {
+        State error(x.size());
+        const auto flow = [&](const State& s, State& out, double at) { rate(s, out, at / drive_.period); };
+        Stepper().do_step(flow, x, t, next, h, error);
+        double largest = 0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double size = options_.tolerance * (scale_[i] + std::abs(x[i]));
+            largest = std::max(largest, std::abs(error[i]) / size);
+            if (!std::isfinite(next[i])) return std::numeric_limits<double>::infinity();
+        }
+        return largest;
+    }
+
+    /// The first relay that a step has carried to the other side; -1: none.
+    int switched(const State& next, double t) {
+        for (std::size_t r = 0; r < modes_.size(); ++r) {
+            const double g = argument_at(r, next, t / drive_.period);
+            argument_scale_[r] = std::max(argument_scale_[r], std::abs(g));
+            const double beyond = modes_[r] == Mode::positive ? -g : modes_[r] == Mode::negative ? g : std::abs(g);
+            if (beyond > argument_tolerance(r)) return static_cast<int>(r);
+        }
+        return -1;
+    }
+
+    /// Through one period; false where the run diverges.
+    bool advance(State& x) {
+        double t = 0;
+        State next(x.size());
+        for (int steps = 0; t < drive_.period * (1 - 1e-12); ++steps) {
+            if (steps > most_steps_in_a_period) return false;
+            double h = std::min(step_, drive_.period - t);
+            const double error = attempt(x, t, h, next);
+            if (!(error <= 1.0)) {
+                step_ = h * std::max(0.1, std::isfinite(error) ? 0.9 * std::pow(error, -0.2) : 0.1);
+                if (step_ < 1e-12 * drive_.period) return false;
+                continue;
+            }
+            const int r = switched(next, t + h);
+            if (r >= 0 && modes_[static_cast<std::size_t>(r)] != Mode::holding) {
+                h = locate(x, t, h, static_cast<std::size_t>(r), next);
+                x = next;
+                t += h;
+                set_driven(t / drive_.period);
+                choose_at_zero(static_cast<std::size_t>(r), x);
+                if (!finite(x)) return false;
+                continue;
+            }
+            if (r >= 0) {   // a held argument has broken away
+                const double g = argument_at(static_cast<std::size_t>(r), next, (t + h) / drive_.period);
+                modes_[static_cast<std::size_t>(r)] = g > 0 ? Mode::positive : Mode::negative;
+            }
+            x = next;
+            t += h;
+            if (!finite(x)) return false;
+            if (h == step_ || error < 0.1) step_ = std::max(step_, h * std::min(5.0, 0.9 * std::pow(std::max(error, 1e-10), -0.2)));
+        }
+        return true;
+    }
+
+    /// The part of the step after which the argument of relay r is zero: regula falsi on the step's size; leaves the state there.
+    double locate(const State& x, double t, double h, std::size_t r, State& next) {
+        double low = 0;
+        double high = h;
+        double g_low = argument_at(r, x, t / drive_.period);
+        double g_high = argument_at(r, next, (t + h) / drive_.period);
+        double at = h;
+        int side = 0;
+        for (int k = 0; k < 60; ++k) {
+            at = g_high == g_low ? 0.5 * (low + high) : (low * g_high - high * g_low) / (g_high - g_low);
+            if (!(at > low && at < high)) at = 0.5 * (low + high);
+            attempt(x, t, at, next);
+            const double g = argument_at(r, next, (t + at) / drive_.period);
+            if (std::abs(g) <= 0.5 * argument_tolerance(r) || high - low < 1e-14 * drive_.period) break;
+            if ((g > 0) == (g_high > 0)) {   // Illinois: halve the end that stays
+                high = at;
+                g_high = g;
+                if (side == 1) g_low *= 0.5;
+                side = 1;
+            } else {
+                low = at;
+                g_low = g;
+                if (side == -1) g_high *= 0.5;
+                side = -1;
+            }
+        }
+        return at;
+    }
+
+    const OdeSystem& system_;
+    const Drive& drive_;
+    const RunOptions& options_;
+    std::vector<double> inputs_;
+    std::vector<double> values_;
+    std::vector<double> results_;
+    std::vector<Mode> modes_;
+    Eigen::MatrixXd mass_;
+    Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
+    bool factored_ = false;
+    std::vector<std::size_t> entry_input_;
+    std::vector<double> scale_;
+    std::vector<double> argument_scale_;
+    std::size_t sample_ = 0;
+    double step_ = 0;
+};
+
+}  // namespace
+
+FreeRun free_run(const OdeSystem& system, const std::vector<double>& parameters, const std::vector<double>& initial, const Drive& drive,
+                 const RunOptions& options, const std::function<void(double)>& progress) {
+    return Run(system, parameters, drive, options).over(initial, progress);
+}
+
+}  // namespace algest::lab

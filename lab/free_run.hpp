@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The model left to itself: integrated over the recorded inputs, from given parameters and initial values.
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "lab/ode_system.hpp"
+
+namespace algest::lab {
+
+/// What drives a run: samples at a uniform period.
+struct Drive {
+    double period;                                ///< s
+    std::size_t samples;
+    std::vector<std::vector<double>> values;      ///< by the model's signals; empty for those that are not driven
+    std::vector<bool> held;                       ///< by signal: constant between samples, else linear
+};
+
+/// Every moving and every fed-back signal at every sample, by the model's signals; empty for the others.
+struct FreeRun {
+    std::vector<std::vector<double>> signals;
+    std::size_t samples;                          ///< computed; fewer than asked for where the run diverged
+};
+
+struct RunOptions {
+    double tolerance = 1e-8;                      ///< local, relative to the scale of each state
+    std::vector<double> scale;                    ///< by state entry: typical size; a run beyond 1e6 times it has diverged
+};
+
+/// Integrates from `initial` (one value per state entry) with a Dormand-Prince step of controlled size inside each period, inputs as
+/// they are held. A sgn() is a relay: a step never straddles its switch, and where the motion holds its argument at zero
+/// (sticking friction) the relay takes the value that keeps it there, so no width of smoothing enters.
+/// Cost: samples times at least six evaluations of the residual's tape per highest derivative and one.
+FreeRun free_run(const OdeSystem& system, const std::vector<double>& parameters, const std::vector<double>& initial, const Drive& drive,
+                 const RunOptions& options, const std::function<void(double)>& progress = {});
+
+}  // namespace algest::lab

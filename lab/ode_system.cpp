@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/ode_system.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "generator/tape_builder.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+using formula::Formula;
+using formula::Kind;
+
+int order_of(const Formula& der) { return der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1; }
+
+template <class Use>
+void each_node(const Formula& f, Use use) {
+    use(f);
+    for (const Formula& a : f->arguments) each_node(a, use);
+}
+
+template <class Use>
+void each_node(const model::Equation& e, Use use) {
+    each_node(e.sides.left, use);
+    each_node(e.sides.right, use);
+}
+
+bool is_derivative(const Formula& f) { return f->kind == Kind::call && f->name == "der"; }
+
+class Compiler {
+public:
+    Compiler(const model::Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
+
+    std::optional<OdeSystem> run() {
+        if (model_.equations.empty()) return fail({}, "no equations", "a simulation needs equations of motion");
+        find_orders();
+        if (!assign_signals()) return std::nullopt;
+        list_states();
+        if (!nothing_driven_is_differentiated()) return std::nullopt;
+        if (!highest_stand_outside_functions() || !laws_see_states()) return std::nullopt;
+        number_inputs();
+        compile();
+        return std::move(out_);
+    }
+
+private:
+    std::nullopt_t fail(Position at, const std::string& what, const std::string& right) {
+        diagnostics_.error(model_.path, at, what, right);
+        return std::nullopt;
+    }
+
+    /// The highest order in which each signal is differentiated anywhere.
+    void find_orders() {
+        for (const model::Equation& e : model_.equations) {
+            each_node(e, [&](const Formula& f) {
+                if (is_derivative(f)) {
+                    int& order = orders_[model_.signal_index(f->arguments[0]->name)];
+                    order = std::max(order, order_of(f));
+                }
+            });
+        }
+    }
+
+    /// Signals whose highest derivative stands in the equation, the first written one first.
+    std::vector<int> candidates(const model::Equation& e) const {
+        std::vector<int> out;
+        each_node(e, [&](const Formula& f) {
+            if (!is_derivative(f)) return;
+            const int signal = model_.signal_index(f->arguments[0]->name);
+            if (orders_.at(signal) == order_of(f) && std::find(out.begin(), out.end(), signal) == out.end()) out.push_back(signal);
+        });
+        return out;
+    }
+
+    bool assign(std::size_t e, std::vector<bool>& tried) {
+        for (const int signal : candidates(model_.equations[e])) {
+            if (tried[static_cast<std::size_t>(signal)]) continue;
+            tried[static_cast<std::size_t>(signal)] = true;
+            const auto holder = equation_of_.find(signal);
+            if (holder == equation_of_.end() || assign(holder->second, tried)) {
+                equation_of_[signal] = e;
+                return true;
+            }
+        }
+        return false;
+    }
+
+    bool assign_signals() {
+        for (std::size_t e = 0; e < model_.equations.size(); ++e) {
+            std::vector<bool> tried(model_.signals.size(), false);
+            if (!assign(e, tried)) {
+                fail(model_.equations[e].at, "equation '" + model_.equations[e].name + "' has no derivative left to give: each equation of motion moves one signal",
+                     "write der(x) = ... for one signal in each equation");
+                return false;
+            }
+        }
+        out_.moving.resize(model_.equations.size());
+        for (const auto& [signal, e] : equation_of_) out_.moving[e] = signal;
+        return true;
+    }
+
+    bool moves(int signal) const { return std::find(out_.moving.begin(), out_.moving.end(), signal) != out_.moving.end(); }
+
+    void list_states() {
+        for (const int signal : out_.moving) {
+            out_.highest.push_back(orders_.at(signal));
+            for (int order = 0; order < orders_.at(signal); ++order) out_.states.push_back({signal, order});
+        }
+        std::vector<bool> used(model_.signals.size(), false);
+        const auto mark = [&](const Formula& f) {
+            if (f->kind == Kind::name && model_.signal(f->name) != nullptr) used[static_cast<std::size_t>(model_.signal_index(f->name))] = true;
+        };
+        for (const model::Equation& e : model_.equations) each_node(e, mark);
+        for (const model::Feedback& f : model_.feedback) each_node(f.law, mark);
+        for (std::size_t s = 0; s < used.size(); ++s) {
+            const bool fed = std::any_of(model_.feedback.begin(), model_.feedback.end(), [&](const model::Feedback& f) { return f.signal == model_.signals[s].name; });
+            if (used[s] && !moves(static_cast<int>(s)) && !fed) out_.driven.push_back(static_cast<int>(s));
+        }
+    }
+
+    bool nothing_driven_is_differentiated() {
+        for (const auto& [signal, order] : orders_) {
+            if (moves(signal)) continue;
+            const std::string& name = model_.signals[static_cast<std::size_t>(signal)].name;
+            fail(model_.signals[static_cast<std::size_t>(signal)].at, "'" + name + "' is differentiated, but no equation moves it: its derivative cannot be simulated",
+                 "write the model with a state instead of der(" + name + "), or add the equation that moves " + name);
+            return false;
+        }
+        return true;
+    }
+
+    bool highest_stand_outside_functions() {
+        for (std::size_t e = 0; e < model_.equations.size(); ++e) {
+            const model::Equation& equation = model_.equations[e];
+            for (const Formula* side : {&equation.sides.left, &equation.sides.right}) {
+                if (!linear_in_highest(*side, equation)) return false;
+            }
+        }
+        return true;
+    }
+
+    /// A law may use signals and those derivatives that are states.
+    bool laws_see_states() {
+        bool good = true;
+        for (const model::Feedback& f : model_.feedback) {
+            if (moves(model_.signal_index(f.signal))) {
+                fail(f.at, "the law sets '" + f.signal + "', which an equation moves", "a law sets an input");
+                good = false;
+            }
+            each_node(f.law, [&](const Formula& g) {
+                if (!is_derivative(g)) return;
+                const int signal = model_.signal_index(g->arguments[0]->name);
+                if (moves(signal) && order_of(g) < orders_.at(signal)) return;
+                fail(f.places[std::min(static_cast<std::size_t>(g->offset), f.places.size() - 1)], "the law differentiates '" + g->arguments[0]->name + "' beyond what the model knows as a state",
+                     "use a derivative of lower order, of a signal that an equation moves");
+                good = false;
+            });
+        }
+        return good;
+    }
+
+    bool is_highest(const Formula& f) const { return is_derivative(f) && orders_.at(model_.signal_index(f->arguments[0]->name)) == order_of(f); }
+
+    bool has_highest(const Formula& f) const {
+        bool found = false;
+        each_node(f, [&](const Formula& g) { found = found || is_highest(g); });
+        return found;
+    }
+
+    /// Sums, products with something else, quotients by something else.
+    bool linear_in_highest(const Formula& f, const model::Equation& equation) {
+        if (!has_highest(f) || is_highest(f)) return true;
+        const auto refuse = [&] {
+            fail(equation.place(f->offset), "the highest derivative stands nonlinearly", "write the equation linear in it");
+            return false;
+        };
+        switch (f->kind) {
+            case Kind::negate: return linear_in_highest(f->arguments[0], equation);
+            case Kind::add:
+            case Kind::subtract: return linear_in_highest(f->arguments[0], equation) && linear_in_highest(f->arguments[1], equation);
+            case Kind::multiply: {
+                if (has_highest(f->arguments[0]) && has_highest(f->arguments[1])) return refuse();
+                const Formula& other = has_highest(f->arguments[0]) ? f->arguments[1] : f->arguments[0];
+                each_node(other, [&](const Formula& g) {
+                    if (g->kind == Kind::name && model_.signal(g->name) != nullptr) out_.constant_mass = false;
+                });
+                return linear_in_highest(has_highest(f->arguments[0]) ? f->arguments[0] : f->arguments[1], equation);
+            }
+            case Kind::divide: {
+                if (has_highest(f->arguments[1])) return refuse();
+                each_node(f->arguments[1], [&](const Formula& g) {
+                    if (g->kind == Kind::name && model_.signal(g->name) != nullptr) out_.constant_mass = false;
+                });
+                return linear_in_highest(f->arguments[0], equation);
+            }
+            default: return refuse();
+        }
+    }
+
+    void number_inputs() {
+        tape_inputs_.signal.resize(model_.signals.size());
+        for (std::size_t s = 0; s < model_.signals.size(); ++s) tape_inputs_.signal[s] = out_.inputs++;
+        for (std::size_t m = 0; m < out_.moving.size(); ++m) {
+            out_.derivative_input.emplace_back();
+            for (int order = 1; order <= out_.highest[m]; ++order) {
+                out_.derivative_input.back().push_back(out_.inputs);
+                tape_inputs_.derivative[{out_.moving[m], order}] = out_.inputs++;
+            }
+        }
+        out_.parameter_input = out_.inputs;
+        for (std::size_t p = 0; p < model_.parameters.size(); ++p) tape_inputs_.parameter.push_back(out_.inputs++);
+        out_.relay_input = out_.inputs;
+        for (const model::Equation& e : model_.equations) {
+            each_node(e, [&](const Formula& f) {
+                if (f->kind != Kind::call || f->name != "sgn" || !moves_with_state(f->arguments[0])) return;
+                tape_inputs_.relay[f.get()] = out_.inputs++;
+                relay_arguments_.push_back(f->arguments[0]);
+            });
+        }
+    }
+
+    bool moves_with_state(const Formula& f) const {
+        bool found = false;
+        each_node(f, [&](const Formula& g) { found = found || (g->kind == Kind::name && moves(model_.signal_index(g->name))); });
+        return found;
+    }
+
+    void compile() {
+        TapeBuilder tape(model_, plan::Scalar::float64, tape_inputs_);
+        for (const model::Equation& e : model_.equations) {
+            const int left = tape.formula(e.sides.left);
+            const int right = tape.formula(e.sides.right);
+            tape.result(tape.difference(left, right));
+        }
+        for (const Formula& argument : relay_arguments_) {
+            out_.relays.push_back({static_cast<int>(out_.moving.size() + out_.relays.size())});
+            tape.result(tape.formula(argument));
+        }
+        out_.residual = tape.finish();
+        for (const model::Feedback& f : model_.feedback) {
+            TapeBuilder law(model_, plan::Scalar::float64, tape_inputs_);
+            law.result(law.formula(f.law));
+            out_.laws.push_back({model_.signal_index(f.signal), law.finish()});
+        }
+    }
+
+    const model::Model& model_;
+    Diagnostics& diagnostics_;
+    OdeSystem out_;
+    std::map<int, int> orders_;
+    std::map<int, std::size_t> equation_of_;
+    TapeInputs tape_inputs_;
+    std::vector<Formula> relay_arguments_;
+};
+
+}  // namespace
+
+std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics) { return Compiler(model, diagnostics).run(); }
+
+}  // namespace algest::lab

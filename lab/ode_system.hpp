@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The equations of a model as a system that can be integrated: formulas compiled once to a flat tape.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/diagnostics.hpp"
+#include "generator/model.hpp"
+#include "generator/tape.hpp"
+
+namespace algest::lab {
+
+/// One scalar of the state vector: a derivative of a signal, order 0 up to one below its highest.
+struct StateEntry {
+    int signal;   ///< index into the model's signals
+    int order;
+};
+
+/// A sgn() whose argument moves with the state: it switches, or holds its argument at zero (Filippov).
+struct Relay {
+    int argument;   ///< result of the tape that is its argument
+};
+
+/// A control law that is sampled once a period and held.
+struct Law {
+    int signal;          ///< that it sets
+    plan::Tape tape;     ///< one result; inputs as of the system
+};
+
+/// What moves, what is replayed, and the residual  left - right  of every equation, linear in the highest derivatives.
+///
+/// Inputs of all tapes, in this order: signals (model order), derivatives of states above order 0 and the highest ones
+/// (`derivative_input`), parameters (model order), relays.
+struct OdeSystem {
+    std::vector<StateEntry> states;        ///< for each moving signal its orders 0, 1, ... in turn
+    std::vector<int> moving;               ///< signals with an equation of their own, in the order of the equations
+    std::vector<int> highest;              ///< by moving: order of its highest derivative
+    std::vector<int> driven;               ///< signals that are replayed from the recording
+    std::vector<Law> laws;
+    std::vector<Relay> relays;
+    std::vector<std::vector<int>> derivative_input;   ///< by moving: tape input of orders 1 .. highest
+    int parameter_input = 0;               ///< tape input of the first parameter
+    int relay_input = 0;                   ///< tape input of the first relay
+    int inputs = 0;
+    plan::Tape residual;                   ///< results: one per moving signal, then one argument per relay
+    bool constant_mass = true;             ///< the factors of the highest derivatives depend on parameters alone
+};
+
+/// Compiles the equations. Complains (bad input) where there are no equations of motion, where an equation has no derivative of its
+/// own to give, where a highest derivative stands inside a function, or where an input is differentiated.
+std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics);
+
+}  // namespace algest::lab
