@@ -35,20 +35,21 @@ Position position(const toml::source_region& region) {
 }
 Position position(const toml::node& node) { return position(node.source()); }
 
-/// Letters to insert, remove or change in a to get b.
+/// Letters to insert, remove, change or swap with the next to get from one word to the other.
 std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1, 0));
+    for (std::size_t i = 0; i <= a.size(); ++i) {
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            if (i == 0 || j == 0) {
+                d[i][j] = i + j;
+                continue;
+            }
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
         }
     }
-    return row[b.size()];
+    return d[a.size()][b.size()];
 }
 
 /// The key of `known` that is closest to a misspelt one, and all of them.
@@ -77,6 +78,7 @@ public:
     Reader(const std::string& path, const std::string& text, bool strict, Diagnostics& diagnostics)
         : path_(path), text_(text), strict_(strict), diagnostics_(diagnostics) {
         model_.path = path;
+        model_.sampling_at = {1, 1};   // where there is no [sampling]
     }
 
     Model take() { return std::move(model_); }
@@ -100,7 +102,7 @@ public:
         } else {
             each_table(root, "equation", [&](const toml::table& table) { read_equation(table); });
             const toml::array* equations = root["equation"].as_array();
-            if (!root.contains("equation") || (equations != nullptr && equations->empty())) {
+            if ((!root.contains("equation") && !root.contains("transfer")) || (equations != nullptr && equations->empty())) {
                 error(Position{1, 1}, "no equation", "add [transfer] or [[equation]]");
             }
         }
@@ -160,7 +162,7 @@ private:
     /// Too many entries are one complaint, and none of those beyond is looked at.
     bool few_enough(Position at, std::size_t count) {
         if (count < most_entries) return true;
-        if (count == most_entries) error(at, "more than " + std::to_string(most_entries) + " of a kind", "split the model");
+        if (count == most_entries) error(at, "more than " + std::to_string(most_entries) + " entries here", "split the model");
         return false;
     }
 

@@ -13,7 +13,7 @@ namespace algest::model {
 
 namespace {
 
-constexpr std::array<std::string_view, 98> cpp_words = {
+constexpr std::array<std::string_view, 99> cpp_words = {
     "alignas", "alignof", "and", "and_eq", "asm", "atomic_cancel", "atomic_commit", "atomic_noexcept", "auto", "bitand",
     "bitor", "bool", "break", "case", "catch", "char", "char8_t", "char16_t", "char32_t", "class", "compl", "concept",
     "const", "consteval", "constexpr", "constinit", "const_cast", "continue", "co_await", "co_return", "co_yield",
@@ -22,12 +22,18 @@ constexpr std::array<std::string_view, 98> cpp_words = {
     "not", "not_eq", "nullptr", "operator", "or", "or_eq", "private", "protected", "public", "reflexpr", "register",
     "reinterpret_cast", "requires", "return", "short", "signed", "sizeof", "static", "static_assert", "static_cast",
     "struct", "switch", "synchronized", "template", "this", "thread_local", "throw", "true", "try", "typedef", "typeid",
-    "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq", "main"};
+    "typename", "typeof", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq", "main"};
 
 // Members of every generated class, and macros that standard headers define.
-constexpr std::array<std::string_view, 24> taken = {
-    "algest", "std", "status", "condition", "reset", "push", "estimate", "step", "Sample", "Estimate", "Scalar", "NAN",
-    "INFINITY", "HUGE_VAL", "NULL", "EOF", "assert", "errno", "signbit", "isnan", "isinf", "isfinite", "linux", "unix"};
+constexpr std::array<std::string_view, 36> taken = {
+    "algest", "std", "Status", "status", "condition", "reset", "push", "estimate", "step", "Sample", "Estimate", "Scalar", "NAN",
+    "INFINITY", "HUGE_VAL", "NULL", "EOF", "assert", "errno", "signbit", "isnan", "isinf", "isfinite", "linux", "unix",
+    "M_E", "M_Ef", "M_El", "M_PI", "M_PIf", "M_PIl", "M_LN2", "M_LN10", "M_SQRT2", "RAND_MAX", "MAXFLOAT"};
+
+// Models whose class would hide one that generated code uses.
+constexpr std::array<std::string_view, 12> taken_by_runtime = {
+    "blueprint", "estimate", "functional", "latest", "memory", "parabola_filter", "progress", "sample", "scalar", "solve",
+    "status", "term"};
 
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& words, const std::string& word) {
@@ -64,6 +70,7 @@ std::optional<NameFault> fault_of_model_name(const std::string& name) {
                        name.find("__") == std::string::npos && std::all_of(name.begin(), name.end(), fine);
     if (!shape) return NameFault{quoted(name) + " is not a model name", "use lower case, digits and single _, a letter first: dc_motor"};
     if (contains(cpp_words, name)) return NameFault{"'" + name + "' is a C++ keyword", "choose another name"};
+    if (contains(taken_by_runtime, name)) return NameFault{"'" + name + "' is taken by generated code", "choose another name"};
     return std::nullopt;
 }
 

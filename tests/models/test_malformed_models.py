@@ -1,0 +1,653 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Model files that are refused: exit 2 within a second, at the right line and column, and nothing is written; the same from
+`check`, `derive` and `generate`. In the texts below the mark ▸ stands where the complaint belongs (two complaints: two marks)."""
+import json
+import os
+import unittest
+
+from model_case import MARK, ModelCase, complaints, without_marks
+
+# An RL circuit, with units.
+COIL = """\
+name = "m"
+
+[sampling]
+period = 0.001
+window = 0.02
+
+[signals]
+v = { unit = "V" }
+i = { unit = "A" }
+
+[constants]
+gain = { value = 2, unit = "1" }
+
+[parameters]
+R = { unit = "ohm" }
+L = { unit = "H" }
+
+[[equation]]
+ode = "L*der(i) = gain*v - R*i"
+"""
+
+# The same shape without units, where only the formula counts.
+PLAIN = """\
+name = "m"
+[sampling]
+period = 0.001
+window = 0.02
+[signals]
+x = {}
+y = {}
+u = {}
+[constants]
+c = { value = 2 }
+[parameters]
+a = {}
+b = {}
+[[equation]]
+ode = "der(x) = a*x + b*u"
+"""
+
+TRANSFER = """\
+name = "m"
+[sampling]
+period = 0.001
+window = 0.02
+[signals]
+y = { unit = "rad" }
+u = { unit = "V" }
+w = { unit = "-" }
+[transfer]
+n = 2
+unknowns = ["a0", "a1", "b0"]
+"""
+
+SEVERAL_INPUTS = """\
+name = "m"
+[sampling]
+period = 0.001
+window = 0.02
+[signals]
+y = { unit = "rad" }
+u = { unit = "V" }
+w = { unit = "-" }
+[transfer]
+n = 1
+unknowns = ["a0"]
+[[transfer.input]]
+signal = "u"
+unknowns = ["b0"]
+[[transfer.input]]
+signal = "w"
+unknowns = ["c0"]
+"""
+
+
+def changed(text, *pairs):
+    """The text with replacements; what is replaced must stand there exactly once."""
+    for old, new in zip(pairs[::2], pairs[1::2]):
+        assert text.count(old) == 1, (old, text.count(old))
+        text = text.replace(old, new)
+    return text
+
+
+def coil(*pairs):
+    return changed(COIL, *pairs)
+
+
+def transfer(*pairs):
+    return changed(TRANSFER, *pairs)
+
+
+def inputs(*pairs):
+    return changed(SEVERAL_INPUTS, *pairs)
+
+
+def ode(text):
+    """PLAIN with another equation, in double quotes."""
+    return changed(PLAIN, "der(x) = a*x + b*u", text)
+
+
+def coil_ode(text):
+    return coil("L*der(i) = gain*v - R*i", text)
+
+
+def written(quotes):
+    """PLAIN with another equation; quotes and all."""
+    return changed(PLAIN, '"der(x) = a*x + b*u"', quotes)
+
+
+def estimator(text):
+    return COIL + "[estimator]\n" + text
+
+
+def feedback(text):
+    return COIL + "[[feedback]]\n" + text
+
+
+def declared(name):
+    """COIL with one more parameter, which is in use, so that the name is all that is wrong."""
+    return coil("L = {", name + ' = { unit = "V" }\nL = {')
+
+
+def crlf(text):
+    return text.replace("\n", "\r\n")
+
+
+TOML = [
+    ("text not closed", coil('name = "m"', 'name = "m▸'), "not closed on its line"),
+    ("text not closed, CRLF", crlf(coil('unit = "V" }', 'unit = "V }▸')), "not closed on its line"),
+    ("no value", coil('name = "m"', "name = ▸"), "expected value"),
+    ("no equals sign", coil('name = "m"', 'name ▸"m"'), "expected '='"),
+    ("something after a value", coil("0.02", "0.02 ▸s"), "expected"),
+    ("decimal comma", coil("0.02", "0▸,02"), "expected"),
+    ("key twice", coil("[sampling]", 'name = ▸"n"\n[sampling]'), "redefine"),
+    ("section twice", COIL + "▸[sampling]\n", "redefine"),
+    ("section not closed", coil("[sampling]", "[sampling▸"), "expected ']'"),
+    ("inline table not closed", coil('{ unit = "H" }', '{ unit = "H" ▸'), "closing '}'"),
+    ("comma before the end of an inline table", coil('{ unit = "H" }', '{ unit = "H", ▸}'), "dangling comma"),
+    ("unknown escape", coil('name = "m"', 'name = "\\▸q"'), "escape"),
+    ("control character", coil('name = "m"', 'name = "m▸\x01"'), "control characters"),
+    ("literal text not closed", coil("[sampling]", "source = '''x▸", ).split("period")[0].rstrip("\n") + "\n", "end-of-file"),
+    ("NUL byte", coil("[sampling]", "▸\0[sampling]"), "\\u0000"),
+    ("an executable", "▸\x7fELF\x02\x01\x01\0\0\0", "\\u007F"),
+    ("an image", "▸\udc89PNG\r\n\x1a\n\0\0", "not UTF-8"),
+    ("not UTF-8", coil('name = "m"', 'name = "größe▸\udcff"'), "not UTF-8"),
+    ("overlong UTF-8", coil('name = "m"', 'name = "▸\udcc0\udcaf"'), "not UTF-8"),
+    ("a surrogate", coil('name = "m"', 'name = "▸\udced\udca0\udc80"'), "not UTF-8"),
+    ("cut off in a character", COIL + "# ▸\udce2\udc86", "not UTF-8"),
+    ("UTF-16", "▸\udcff\udcfen\0a\0", "not UTF-8"),
+    ("carriage returns alone", '# model▸\rname = "m"\r', "'\\r'"),
+    ("bare key that is not ASCII", coil("R = {", "▸ω = {"), "saw 'ω'"),
+    ("arrays in arrays", "x = " + "[" * 256 + "▸" + "[" * 1000, "depth"),
+    ("key of eleven parts", "a.b.c.d.e.f.g.h.i.j▸.k = 1\n", "more than 10 parts"),
+    ("key of 200 000 parts", "s = '.' # ...\n" + "a." * 9 + "a▸" + ".a" * 200_000 + " = 1\n", "more than 10 parts"),
+    ("section of 200 000 parts", 's = """"\n\\"..."""\n[' + "a." * 9 + "a▸" + ".a" * 200_000 + "]\n", "more than 10 parts"),
+]
+
+KEYS = [
+    ("misspelt key", coil("[sampling]", '▸sumary = "x"\n[sampling]'), "did you mean summary?"),
+    ("misspelt section", COIL + "[▸estimater]\n", "did you mean estimator?"),
+    ("key of another program", COIL + "[▸plotting]\n", "keys here: format, name"),
+    ("misspelt key of sampling", coil("[sampling]", "[sampling]\n▸growning = true"), "did you mean growing?"),
+    ("misspelt key of a signal", coil('i = { unit = "A"', 'i = { unit = "A", ▸niose = 1'), "did you mean noise?"),
+    ("misspelt key of a constant", coil('unit = "1"', 'unit = "1", ▸val = 1'), "did you mean value?"),
+    ("misspelt key of a parameter", coil('R = { ', 'R = { ▸inital = 1, '), "did you mean initial?"),
+    ("misspelt key of an equation", COIL + "▸kapa = 1\n", "did you mean kappa?"),
+    ("misspelt key of the transfer equation", transfer("n = 2", "n = 2\n▸unknown = []"), "did you mean unknowns?"),
+    ("misspelt key of an input", inputs('"w"', '"w"\n▸knwon = {}'), "did you mean known?"),
+    ("misspelt key of the estimator", estimator("▸forgeting = 1\n"), "did you mean forgetting?"),
+    ("misspelt key of feedback", feedback('signal = "v"\nlaw = "i"\n▸gain = 1\n'), "unknown key 'gain'"),
+    ("capital letter", coil('R = { unit', 'R = { ▸Unit'), "did you mean unit?"),
+    ("a section of a later version", COIL + "▸[discrete]\n", "not supported by this version"),
+    ("no name", "▸" + coil('name = "m"', ""), "no name"),
+    ("nothing", "▸▸▸", "no name"),
+    ("comments alone", "▸▸▸# a model\n", "no equation"),
+    ("byte-order mark alone", "\ufeff▸▸▸", "no [signals]"),
+    ("no signals", '▸name = "m"\n[sampling]\nperiod = 1\nwindow = 2\n[[equation]]\node = "▸i = 1"\n', "unknown name 'i'"),
+    ("no equation", "▸" + COIL.split("[[equation]]")[0], "no equation"),
+    ("empty list of equations", "▸" + changed(COIL.split("[[equation]]")[0], "[sampling]", "equation = []\n[sampling]"), "no equation"),
+    ("no ode", COIL + "▸[[equation]]\nkappa = 0\n", "without ode"),
+    ("constant without value", coil('gain = { value = 2, ', "▸gain = { "), "has no value"),
+    ("feedback without law", COIL + '▸[[feedback]]\nsignal = "v"\n', "needs signal and law"),
+    ("feedback without signal", COIL + '▸[[feedback]]\nlaw = "i"\n', "needs signal and law"),
+    ("transfer without n", transfer("[transfer]\nn = 2", "▸[transfer]"), "without n"),
+    ("input without signal", inputs('[[transfer.input]]\nsignal = "w"', "▸[[transfer.input]]"), "without signal"),
+    ("transfer and equation", TRANSFER + '▸[[equation]]\node = "der(y) = u"\n', "one or the other"),
+    ("equation in single brackets", coil("[[equation]]", "▸[equation]"), "write [[equation]]"),
+    ("transfer in double brackets", transfer("[transfer]", "▸[[transfer]]"), "write [transfer]"),
+    ("signals in double brackets", 'name = "m"\n▸[[signals]]\nx = {}\n[[equation]]\node = "▸x = 1"\n', "write [signals]"),
+    ("101 signals", coil("i = {", "".join(f's{k} = {{ unit = "V" }}\n' for k in range(98)) + 'i = { unit = "A" }\n▸t = {'), "more than 100"),
+    ("101 equations", COIL + '[[equation]]\node = "i = i"\n' * 99 + '▸[[equation]]\node = "i = i"\n' + '[[equation]]\node = "nonsense"\n' * 9, "more than 100"),
+]
+
+VALUES = [
+    ("name that is a number", coil('name = "m"', "name = ▸3"), "not a text"),
+    ("another format", "format = ▸2\n" + COIL, "format is not 1"),
+    ("format as text", 'format = ▸"1"\n' + COIL, "format is not 1"),
+    ("summary that is a list", "summary = ▸[]\n" + COIL, "not a text"),
+    ("sampling that is a number", "sampling = ▸3\n" + COIL.replace("[sampling]\nperiod = 0.001\nwindow = 0.02\n", ""), "write [sampling]"),
+    ("signal that is a text", coil('v = { unit = "V" }', 'v = ▸"V"', "gain*v", "gain*▸v"), "not a table"),
+    ("unit that is a number", coil('unit = "H"', "unit = ▸1"), "not a text"),
+    ("hold that is a number", coil('unit = "V"', 'unit = "V", hold = ▸0'), "not a text"),
+    ("unknown hold", coil('unit = "V"', 'unit = "V", hold = ▸"cubic"'), "linear | zoh"),
+    ("column that is a number", coil('unit = "V"', 'unit = "V", column = ▸3'), "not a text"),
+    ("scored that is a text", coil('unit = "V"', 'unit = "V", scored = ▸"no"'), "true or false"),
+    ("period that is a text", coil("0.001", '▸"fast"'), "not a number"),
+    ("period that is a truth", coil("0.001", "▸true"), "not a number"),
+    ("period that is a date", coil("0.001", "▸1979-05-27"), "not a number"),
+    ("period with a unit", coil("0.001", '▸"1 ms"'), "not a number"),
+    ("fraction with zero below", coil("0.001", '▸"1/0"'), "not a number"),
+    ("window that is a list", coil("0.02", "▸[0.02]"), "not a number"),
+    ("window that is not a number", coil("0.02", "▸nan"), "not finite"),
+    ("infinite window", coil("0.02", "▸inf"), "not finite"),
+    ("infinite period", coil("0.001", "▸-inf"), "not finite"),
+    ("noise that is not a number", coil('unit = "A"', 'unit = "A", noise = ▸nan'), "not finite"),
+    ("infinite constant", coil("value = 2", "value = ▸+inf"), "not finite"),
+    ("constant beyond double", coil("value = 2", 'value = ▸"1e101"'), "beyond 1e100"),
+    ("constant next to zero", coil("value = 2", "value = ▸-1e-101"), "closer to 0 than 1e-100"),
+    ("exponent beyond all reading", coil("value = 2", 'value = ▸"1e99999999999"'), "not a number"),
+    ("a number of 300 000 digits", coil("value = 2", 'value = ▸"' + "1" * 300_000 + '"'), "not a number"),
+    ("period of zero", coil("0.001", "▸0"), "not positive"),
+    ("negative period", coil("0.001", "▸-0.001"), "not positive"),
+    ("period of a picosecond", coil("0.001", "▸1e-12", "0.02", "1e-9"), "below 1e-9 s"),
+    ("window of zero", coil("0.02", "▸0.0"), "not positive"),
+    ("negative window", coil("0.02", '▸"-1/50"'), "not positive"),
+    ("window of three centuries", coil("0.02", "▸1e10"), "beyond 1e9 s"),
+    ("window with a rest", coil("0.02", "▸0.0205"), "between 20 and 21"),
+    ("window of one period", coil("0.02", "▸0.001"), "shorter than two"),
+    ("window shorter than a period", coil("0.02", "▸0.0005"), "shorter than two"),
+    ("window of a million and one periods", coil("0.02", "▸1000.001"), "more than 1000000"),
+    ("growing window", coil("window = 0.02", "window = 0.02\ngrowing = ▸true"), "not supported by this version"),
+    ("growing that is a number", coil("window = 0.02", "window = 0.02\ngrowing = ▸1"), "true or false"),
+    ("negative noise", coil('unit = "A"', 'unit = "A", noise = ▸-0.1'), "negative"),
+    ("negative resolution", coil('unit = "A"', 'unit = "A", resolution = ▸-0.1'), "negative"),
+    ("limits the wrong way round", coil('unit = "A"', 'unit = "A", min = 2, max = ▸1'), "not above min"),
+    ("limits that leave nothing", coil('unit = "H"', 'unit = "H", min = 1, max = ▸1'), "not above min"),
+    ("initial value below its limit", coil('unit = "H"', 'unit = "H", min = 1, initial = ▸0.5'), "outside [min, max]"),
+    ("initial value above its limit", coil('unit = "H"', 'unit = "H", initial = ▸"7/2", max = 3'), "outside [min, max]"),
+    ("kappa with a point", COIL + "kappa = ▸1.0\n", "whole number from 0 to 8"),
+    ("negative kappa", COIL + "kappa = ▸-1\n", "whole number from 0 to 8"),
+    ("kappa of nine", COIL + "kappa = ▸9\n", "whole number from 0 to 8"),
+    ("no rows", COIL + "rows = ▸0\n", "whole number from 1 to 40"),
+    ("rows as text", COIL + 'rows = ▸"2"\n', "whole number from 1 to 40"),
+    ("an empty list of rows", COIL + "rows = ▸[]\n", "rows is empty"),
+    ("a row twice", COIL + "rows = [1, 2, ▸1]\n", "each once"),
+    ("row 41", COIL + "rows = [1, ▸41]\n", "from 1 to 40"),
+    ("row with a point", COIL + "rows = [▸1.5, 2]\n", "from 1 to 40"),
+    ("row of 2^63 - 1", COIL + "rows = ▸9223372036854775807\n", "from 1 to 40"),
+    ("fewer rows than unknowns", COIL + "rows = ▸1\n", "1 rows for 2 unknowns"),
+    ("scale of zero", COIL + "scale = ▸0\n", "not positive"),
+    ("ode that is a number", coil('"L*der(i) = gain*v - R*i"', "▸3"), "not a text"),
+    ("two equations of a name", COIL + 'name = "a"\n[[equation]]\nname = ▸"a"\node = "i = i"\n', "two equations are named 'a'"),
+    ("unknown functional", estimator('functional = ▸"magic"\n'), "annihilator | discrete | derivative | average"),
+    ("functional of a later version", estimator('functional = ▸"average"\n'), "not supported by this version"),
+    ("unknown solver", estimator('solve = ▸"cholesky"\n'), "square | robust | least_squares | elimination"),
+    ("solver of a later version", estimator('solve = ▸"elimination"\n'), "not supported by this version"),
+    ("form 2", estimator("form = ▸2\n"), "not supported by this version"),
+    ("form 3", estimator("form = ▸3\n"), "whole number from 1 to 2"),
+    ("unknown engine", estimator('engine = ▸"gpu"\n'), "fir | moments"),
+    ("unknown quadrature", estimator('quadrature = ▸"romberg"\n'), "exact | trapezoid | simpson"),
+    ("Simpson with an odd number of periods", changed(estimator('quadrature = ▸"simpson"\n'), "0.02", "0.021"), "even number of periods"),
+    ("forgetting above 1", estimator("forgetting = ▸1.01\n"), "above 1"),
+    ("forgetting everything", estimator("forgetting = ▸0\n"), "not positive"),
+    ("condition limit of zero", estimator("condition_limit = ▸0\n"), "not positive"),
+    ("solve_window with a rest", estimator("solve_window = ▸0.0015\n"), "not a whole number of periods"),
+    ("solve_window of a million and one periods", estimator("solve_window = ▸1000.001\n"), "more than 1000000"),
+    ("negative solve_window", estimator("solve_window = ▸-1\n"), "not positive"),
+]
+
+NAMES = [
+    ("C++ keyword", declared("▸double"), "C++ keyword"),
+    ("newer C++ keyword", declared("▸co_await"), "C++ keyword"),
+    ("alternative spelling of C++", declared("▸xor"), "C++ keyword"),
+    ("two underscores", declared("▸k__p"), "reserved"),
+    ("underscore at the end", declared("▸k_"), "reserved"),
+    ("underscore at the front", declared("▸_k"), "does not start with a letter"),
+    ("digit at the front", declared("▸2x"), "does not start with a letter"),
+    ("member of the generated class", declared("▸status"), "taken by generated code"),
+    ("macro of the standard library", declared("▸NULL"), "taken by generated code"),
+    ("macro of cmath", declared("▸M_PI"), "taken by generated code"),
+    ("function", declared("▸sin"), "is a function"),
+    ("derivative", declared("▸der"), "is a function"),
+    ("case alone", declared("▸r"), "'r' and 'R' differ by case alone"),
+    ("case alone in two sections", declared("▸GAIN"), "differ by case alone"),
+    ("a signal and a parameter", declared("▸v"), "declared twice"),
+    ("hyphen", declared("▸k-p"), "not a name"),
+    ("blank", declared('▸"k p"'), "not a name"),
+    ("empty", declared('▸""'), "empty name"),
+    ("not ASCII", declared('▸"ω"'), "'ω' is not a name"),
+    ("behind what is not ASCII", coil('v = { unit = "V" }', 'v = { column = "größe→𝄞", ▸unti = "V", unit = "V" }'), "unknown key 'unti'"),
+    ("61 characters", declared("▸" + "k" * 61), "61 characters"),
+    ("300 000 characters", declared("▸" + "k" * 300_000), "300000 characters"),
+    ("template marks", declared('▸"{{k}}"'), "not a name"),
+    ("line break", declared('▸"k\\nm"'), "'k?m' is not a name"),
+    ("model name with a capital", coil('"m"', '▸"Motor"'), "not a model name"),
+    ("model name with a blank", coil('"m"', '▸"dc motor"'), "not a model name"),
+    ("model name that leaves the folder", coil('"m"', '▸"../m"'), "not a model name"),
+    ("model name with a slash", coil('"m"', '▸"m/n"'), "not a model name"),
+    ("model name with a line break", coil('"m"', '▸"m\\n"'), "'m?' is not a model name"),
+    ("model name that is empty", coil('"m"', '▸""'), "not a model name"),
+    ("model name that is a keyword", coil('"m"', '▸"double"'), "C++ keyword"),
+    ("model name that hides a class of the runtime", coil('"m"', '▸"status"'), "taken by generated code"),
+    ("model name of 61 characters", coil('"m"', '▸"' + "m" * 61 + '"'), "not a model name"),
+    ("summary with template marks", 'summary = ▸"{{name}}"\n' + COIL, "'{{'"),
+    ("summary that closes a comment", 'summary = ▸"a */ b"\n' + COIL, "'*/'"),
+    ("summary that opens a comment", 'summary = ▸"a /* b"\n' + COIL, "'/*'"),
+    ("summary of two lines", 'summary = ▸"""\na\nb"""\n' + COIL, "line break"),
+    ("summary with an escape", 'summary = ▸"a\\u0007b"\n' + COIL, "control character"),
+    ("summary with a backslash at the end", "summary = ▸'what follows is a comment \\'\n" + COIL, "backslash"),
+    ("summary with a trigraph", "summary = ▸'what??/'\n" + COIL, "'??/'"),
+    ("summary of 301 characters", 'summary = ▸"' + "s" * 301 + '"\n' + COIL, "301 bytes"),
+    ("source with template marks", 'source = ▸"x }} y"\n' + COIL, "'}}'"),
+    ("equation named with template marks", COIL + 'name = ▸"{{#rows}}"\n', "'{{'"),
+    ("equation named with a line break", COIL + 'name = ▸"a\\r\\nb"\n', "line break"),
+    ("unit of newton metres without a point", coil('"ohm"', '▸"Nm"'), "write N.m"),
+    ("unit of damping without a point", coil('"ohm"', '▸"Ns/m"'), "write N.s/m"),
+    ("unit of inertia without a point", coil('"ohm"', '▸"kgm2"'), "write kg.m^2"),
+    ("ohm in Greek letters and words", coil('"ohm"', '▸"Ω pro Meter"'), "UDUNITS does not know"),
+    ("no unit at all", coil('"ohm"', '▸"parsnip"'), "UDUNITS does not know the unit 'parsnip'"),
+    ("unit with a line break", coil('"ohm"', '▸"ohm\\n"'), "UDUNITS does not know"),
+    ("unit of a thousand parentheses", coil('"ohm"', '▸"' + "(" * 1000 + "m" + ")" * 1000 + '"'), "UDUNITS does not know"),
+    ("unit with a power of 300", coil('"ohm"', '▸"m^300"'), "UDUNITS does not know"),
+]
+
+FORMULAS = [
+    ("unknown name", ode("der(x) = a*x + b*▸z"), "unknown name 'z'"),
+    ("unknown name that differs by case", ode("der(x) = ▸A*x + b*u"), "did you mean a?"),
+    ("unknown names on both sides", ode("der(▸z) = a*x + b*▸w"), "unknown name 'w'"),
+    ("function without parentheses", ode("der(x) = a*x + b*▸sin"), "unknown name 'sin'"),
+    ("unknown function", ode("der(x) = a*x + b*▸sinh(u)"), "'sinh' is not a function"),
+    ("product without a sign", ode("der(x) = ▸a(x) + b*u"), "'a' is not a function; functions are der"),
+    ("name right after a number", ode("der(x) = 2▸a*x + b*u"), "write * between them"),
+    ("name right after an exponent", ode("der(x) = 2e5▸a*x + b*u"), "write * between them"),
+    ("parenthesis right after a number", ode("der(x) = 2▸(a*x + b*u)"), "an operator is missing before '('"),
+    ("two names", ode("der(x) = a ▸x + b*u"), "an operator is missing before 'x'"),
+    ("two parentheses", ode("der(x) = (a)▸(x) + b*u"), "an operator is missing before '('"),
+    ("two points in a number", ode("der(x) = 1.5▸.2*a*x + b*u"), "unexpected '.'"),
+    ("a point", ode("der(x) = a*x + b*u + ▸."), "not a number"),
+    ("number of 401 digits", ode("der(x) = a*x + b*u + ▸0." + "1" * 401), "at most 400 digits"),
+    ("number with a huge exponent", ode("der(x) = a*x + b*u + ▸1e401"), "within +-400"),
+    ("closed too often", ode("der(x) = (a*x + b*u)▸)"), "')' without '('"),
+    ("closed too often in the middle", ode("der(x)▸) = a*x + b*u"), "')' without '('"),
+    ("never closed", ode("der(x) = a*x + b*▸(u + (1 + 2)"), "'(' is never closed"),
+    ("call never closed", ode("der(x) = a*x + b*▸sin(u"), "'(' of sin is never closed"),
+    ("square bracket", ode("der(x) = a*x + b*(u▸])"), "unexpected ']'"),
+    ("operand missing at the end", ode("der(x) = a*x + b*▸"), "ends too early"),
+    ("operand missing before a parenthesis", ode("der(x) = a*x + (b + ▸)*u"), "an operand is missing before ')'"),
+    ("nothing in parentheses", ode("der(x) = a*x + (▸)*u"), "an operand is missing before ')'"),
+    ("operand missing before an operator", ode("der(x) = a*x + ▸*b*u"), "an operand is missing before '*'"),
+    ("nothing on the left", ode("▸= a*x + b*u"), "an operand is missing before '='"),
+    ("nothing on the right", ode("der(x) = ▸"), "ends too early"),
+    ("empty", ode("▸"), "ends too early"),
+    ("blanks alone", ode("   ▸"), "ends too early"),
+    ("empty, three quotes", written('"""▸"""'), "ends too early"),
+    ("empty, three apostrophes", written("'''▸'''"), "ends too early"),
+    ("no equals sign", ode("der(x) - a*x + b*u▸"), "without '='"),
+    ("two equals signs", ode("der(x) = a*x ▸= b*u"), "a second '='"),
+    ("comparison", ode("der(x) =▸= a*x + b*u"), "a second '='"),
+    ("power as in Python", ode("der(x) = a*x▸**2 + b*u"), "write ^ for a power"),
+    ("factorial", ode("der(x) = a*x▸! + b*u"), "unexpected '!'"),
+    ("a comment", ode("der(x) = a*x + b*u ▸# motor"), "unexpected '#'"),
+    ("minus sign of a word processor", ode("der(x) = a*x ▸− b*u"), "no formula has"),
+    ("middle dot", ode("der(x) = a▸·x + b*u"), "no formula has"),
+    ("control character", ode("der(x) = a*x + ▸\\u0007b*u"), "no formula has"),
+    ("NUL", ode("der(x) = a*x + ▸\\u0000b*u"), "no formula has"),
+    ("no-break space", ode("der(x) =▸\u00a0a*x + b*u"), "no formula has"),
+    ("sin of two", ode("der(x) = a*▸sin(x, u) + b*u"), "sin takes one argument"),
+    ("sin of nothing", ode("der(x) = a*▸sin() + b*u"), "sin takes one argument"),
+    ("min of one", ode("der(x) = a*▸min(x) + b*u"), "min takes two arguments"),
+    ("max of five", ode("der(x) = a*▸max(x, u, y, 1, 2) + b*u"), "max takes two arguments"),
+    ("der of nothing", ode("▸der() = a*x + b*u"), "der takes a signal"),
+    ("der of three", ode("▸der(x, 1, 2) = a*x + b*u"), "der takes a signal"),
+    ("der of a product", ode("der(▸x*y) = a*x + b*u"), "der() of something that is not a signal"),
+    ("der of a parameter", ode("der(▸a) = a*x + b*u"), "der() of something that is not a signal"),
+    ("der of a number", ode("der(▸1) = a*x + b*u"), "der() of something that is not a signal"),
+    ("der of der", ode("der(▸der(x)) = a*x + b*u"), "der() of something that is not a signal"),
+    ("der of order 0", ode("der(x, ▸0) = a*x + b*u"), "whole number from 1 to 12"),
+    ("der of order 1.5", ode("der(x, ▸1.5) = a*x + b*u"), "whole number from 1 to 12"),
+    ("der of order 99", ode("der(x, ▸99) = a*x + b*u"), "whole number from 1 to 12"),
+    ("der of order -1", ode("der(x, ▸-1) = a*x + b*u"), "whole number from 1 to 12"),
+    ("der of a constant's order", ode("der(x, ▸c) = a*x + b*u"), "whole number from 1 to 12"),
+    ("huge exponent", ode("der(x) = a*x + b*2^▸99999999*u"), "the exponent is beyond 32"),
+    ("exponent of 33", ode("der(x) = a*x^▸33 + b*u"), "the exponent is beyond 32"),
+    ("exponent of -33", ode("der(x) = a*x^▸-33 + b*u"), "the exponent is beyond 32"),
+    ("exponent that adds up to 33", ode("der(x) = a*x^▸(16 + 17) + b*u"), "the exponent is beyond 32"),
+    ("tower of powers", ode("der(x) = a*x + b*2^▸9^9*u"), "the exponent is beyond 32"),
+    ("powers of powers", ode("der(x) = a*((((x^32)^32)^32)^▸32)^32 + b*u"), "powers of powers beyond 32"),
+    ("powers of powers of a number", ode("der(x) = a*x + b*((((((((2^32)^32)^32)^32)^32)^32)^32)^▸32)^32*u"), "powers of powers beyond 32"),
+    ("a number that grows", ode("der(x) = a*x + b*(▸" + "*".join(["1e400"] * 10) + "*u)"), "more than 1000 digits"),
+    ("division by zero", ode("der(x) = a*x + b*u/▸0"), "division by zero"),
+    ("division by a difference of numbers", ode("der(x) = a*x + b*u/▸(c - 2)"), "division by zero"),
+    ("zero to the power of zero", ode("der(x) = a*x + b*u*▸0^0"), "0 to a power"),
+    ("zero below", ode("der(x) = a*x + b*u*▸0^-1"), "0 to a power"),
+    ("root of a negative number", ode("der(x) = a*x + b*u*▸sqrt(1 - c)"), "not a real number"),
+    ("logarithm of zero", ode("der(x) = a*x + b*u*▸log(c - 2)"), "not a real number"),
+    ("negative number to a fraction", ode("der(x) = a*x + b*u*▸(-8)^(1/3)"), "not whole"),
+    ("exponential beyond all numbers", ode("der(x) = a*x + b*u*▸exp(1e300)"), "not a real number"),
+    ("a thousand minus signs", ode("der(x) = " + "-" * 101 + "▸" + "-" * 899 + "a*x + b*u"), "nested deeper than 100"),
+    ("a thousand parentheses", ode("der(x) = " + "(" * 101 + "▸" + "(" * 899 + "a" + ")" * 1000 + "*x + b*u"), "nested deeper than 100"),
+    ("a million parentheses", ode("▸" + "(" * 1_000_000), "1000000 characters"),
+    ("a million parentheses, closed", ode("▸der(x) = " + "(" * 500_000 + "a*x" + ")" * 500_000 + " + b*u"), "more than 20000"),
+    ("two thousand terms", ode("x" + "+x" * 1999 + "▸+x" + "+x" * 3000 + " = 0"), "more than 4000 operations"),
+    ("ten thousand terms", ode("▸der(x) = a*x" + "+b*u" * 10_000), "more than 20000"),
+    ("a name of 61 characters", ode("der(x) = ▸" + "a" * 61 + "*x + b*u"), "61 characters"),
+    ("a power that would explode", ode("der(x) = ▸-(x + y + u + a + b + c)^20"), "more than 2000 terms"),
+    ("a law with an equals sign", feedback('signal = "v"\nlaw = "v ▸= gain*i"\n'), "'=' in an expression"),
+    ("a law that is cut off", feedback('signal = "v"\nlaw = "gain*(i - ▸"\n'), "ends too early"),
+    ("a law with an unknown name", feedback('signal = "v"\nlaw = "gain*(▸r - i)"\n'), "unknown name 'r'"),
+    ("a law that divides by zero", feedback('signal = "v"\nlaw = "i/▸0"\n'), "division by zero"),
+    ("a law that is a number", feedback('signal = "v"\nlaw = ▸1\n'), "not a text"),
+    ("a law for nothing", feedback('signal = ▸"r"\nlaw = "i"\n'), "'r' is not a signal"),
+    ("two laws for one signal", feedback('signal = "v"\nlaw = "i"\n[[feedback]]\nsignal = ▸"v"\nlaw = "2*i"\n'), "a second law"),
+]
+
+# Where a complaint stands in a formula, for every way to write a text in TOML.
+PLACES = [
+    ("literal", written("'der(x) = a*x + b*▸z'"), "'z'"),
+    ("several lines", written('"""\nder(x) =\n   a*x\n + b*▸z"""'), "'z'"),
+    ("several lines that begin at once", written('"""der(x) =\n   a*x\n + b*▸z"""'), "'z'"),
+    ("several literal lines", written("'''\nder(x) =\n\ta*x\n + b*▸z'''"), "'z'"),
+    ("several lines, CRLF", crlf(written('"""\nder(x) =\n   a*x\n + b*▸z\n"""')), "'z'"),
+    ("several literal lines, CRLF", crlf(written("'''\nder(x) =\n   a*x\n + b*▸z\n'''")), "'z'"),
+    ("lines joined by a backslash", written('"""\\\n  der(x) = \\\n\n     a*x \\   \n + b*▸z"""'), "'z'"),
+    ("lines joined by a backslash, CRLF", crlf(written('"""\\\n  der(x) = \\\n\n     a*x \\   \n + b*▸z"""')), "'z'"),
+    ("escape before it", written('"der(x) =\\ta*x\\n + b*▸z"'), "'z'"),
+    ("letter as an escape before it", written('"der(x) = \\u0061*x + \\U00000062*▸z"'), "'z'"),
+    ("escape itself", written('"der(x) = a*x + b*▸\\u007A"'), "'z'"),
+    ("character of two bytes as an escape", written('"der(x) = a*x + ▸\\u00e9*z"'), "no formula has"),
+    ("character of four bytes as an escape", written('"der(x) = a*x + ▸\\U0001D11E*z"'), "no formula has"),
+    ("quotes inside three quotes", written('"""der(x) = a*x + ▸"b"*z"""'), "unexpected '\"'"),
+    ("three quotes that end in five", written('"""der(x) = a*x + b*u▸"""""'), "unexpected '\"'"),
+    ("backslash in a literal", written("'der(x) = a*x + ▸\\b*z'"), "unexpected '\\'"),
+    ("UTF-8 before it on the line", changed(PLAIN.split("[[equation]]")[0], "[sampling]", 'equation = [ { name = "größe→𝄞", ode = "der(x) = a*x + b*▸z" } ]\n[sampling]'), "'z'"),
+    ("UTF-8 on the line above", ode("der(x) = a*x + b*▸z").replace("ode =", 'name = "größe→𝄞" # ü\node ='), "'z'"),
+    ("tabs before it", ode("der(x) = a*x + b*▸z").replace("ode =", "\t\tode\t="), "'z'"),
+    ("CRLF", crlf(ode("der(x) = a*x + b*▸z")), "'z'"),
+    ("byte-order mark", "\ufeff" + ode("der(x) = a*x + b*▸z"), "'z'"),
+    ("byte-order mark and CRLF", "\ufeff" + crlf(ode("der(x) = a*x + b*▸z")), "'z'"),
+    ("byte-order mark before a fault in line 1", "\ufeff" + coil('"m"', '▸"M"'), "not a model name"),
+    ("byte-order mark before a fault of the syntax in line 1", "\ufeff" + coil('name = "m"', 'name ▸"m"'), "expected '='"),
+    ("last line without end", ode("der(x) = a*x + b*▸z").rstrip("\n"), "'z'"),
+]
+
+MATHEMATICS = [
+    ("parameter in sin", ode("der(x) = sin(▸a*x) + b*u"), "'a' stands inside sin()"),
+    ("parameter in a power of e", ode("der(x) = a*x + exp(2*(1 + ▸b))*u"), "'b' stands inside exp()"),
+    ("parameter in an exponent", ode("der(x) = x^▸a + b*u"), "'a' stands in an exponent"),
+    ("parameter under a root", ode("der(x) = sqrt(u*▸a) + b*u"), "'a' stands inside sqrt()"),
+    ("parameter under a broken power", ode("der(x) = (▸a*x)^0.5 + b*u"), "power that is not a whole number"),
+    ("parameter beside a signal in a denominator", ode("der(x) = u/(▸a + x) + b*u"), "beside a signal in a denominator"),
+    ("parameter in a comparison", ode("der(x) = max(x, ▸a) + b*u"), "'a' stands inside max()"),
+    ("second derivative inside a nonlinearity", ode("der(x) = a*x + b*sgn(▸der(y, 2))"), "order above 1"),
+    ("second derivative times a signal", ode("der(x) = a*x + b*u*▸der(y, 2)"), "order above 1"),
+    ("products that outnumber the parameters", changed(PLAIN, '"der(x) = a*x + b*u"', '▸"der(x) = a*x + b*u + a*b*y"'), "because of the term"),
+    ("a square that cannot be undone", changed(PLAIN, '"der(x) = a*x + b*u"', '▸"der(x) = a^2*x + b*u"'), "cannot be solved for a"),
+    ("volts and volts squared", coil_ode("L*der(i) = v*v - ▸R*i"), "differ in dimension"),
+    ("sides that differ", coil_ode("L*der(i) = ▸(gain*v - R*i)/R"), "differ in dimension"),
+    ("number beside volts", coil_ode("L*der(i) = gain*v - ▸1 - R*i"), "differ in dimension"),
+    ("derivative forgotten", coil_ode("L*i = ▸gain*v - R*i"), "differ in dimension"),
+    ("milliamperes", coil('i = { unit = "A" }', 'i = { unit = "mA" }', "gain*v - R*i", "▸gain*v - ▸R*i"), "differ in scale"),
+    ("exponential of amperes", coil_ode("L*der(i) = gain*v - R*i + v*exp(▸i)"), "the argument of exp has the unit [A]"),
+    ("sine of degrees", coil('i = { unit = "A" }', 'i = { unit = "degree" }', "gain*v - R*i", "gain*v*sin(▸i) - ▸R*i", '"ohm"', '"V/degree"', '"H"', '"V.s/degree"').replace("- ▸R", "- R"), "the argument of sin"),
+    ("smaller of volts and amperes", coil_ode("L*der(i) = ▸min(v, i) - R*i"), "differ in dimension"),
+    ("volts to the power of a signal", coil_ode("L*der(i) = gain*v - R*i + ▸v^▸i"), "an exponent has the unit"),
+    ("unit of another parameter", coil('"H"', '"F"', "gain*v", "▸gain*v"), "differ in dimension"),
+]
+
+TRANSFERS = [
+    ("m above n", transfer("n = 2", "n = 2\nm = ▸3"), "m = 3 is larger than n = 2"),
+    ("m above n in the second input", inputs('"w"', '"w"\nm = ▸2'), "m = 2 is larger than n = 1"),
+    ("order 0", transfer("n = 2", "n = ▸0"), "whole number from 1 to 12"),
+    ("order 13", transfer("n = 2", "n = ▸13"), "whole number from 1 to 12"),
+    ("order as text", transfer("n = 2", 'n = ▸"2"\nm = 1'), "whole number from 1 to 12"),
+    ("coefficient forgotten", transfer("[transfer]", "▸[transfer]", '"a1", ', ""), "coefficient a1 is neither unknown nor known"),
+    ("two coefficients forgotten", transfer("[transfer]", "▸▸[transfer]", '"a0", "a1", ', ""), "coefficient a0 is neither unknown nor known"),
+    ("coefficient of an input forgotten", transfer("n = 2", "n = 2\nm = ▸1"), "coefficient b1 is neither unknown nor known"),
+    ("coefficient twice", transfer('"b0"', '"b0", ▸"a0"'), "'a0' is named twice"),
+    ("unknown and known", transfer("n = 2", "n = 2\nknown = { ▸a1 = 0 }"), "'a1' is named twice"),
+    ("coefficient of a higher order than n", transfer('"b0"', '"b0", ▸"a3"'), "order 3, above n = 2"),
+    ("coefficient of a higher order than m", transfer('"b0"', '"b0", ▸"b1"'), "order 1, above m = 0"),
+    ("coefficient without an order", transfer('"b0"', '"b0", ▸"gain"'), "does not end in the order"),
+    ("coefficient of order 100", transfer('"b0"', '"b0", ▸"b100"'), "does not end in the order"),
+    ("coefficient that is no name", transfer('"b0"', '"b0", ▸"b-1"'), "not a name"),
+    ("coefficient named like a signal", transfer('"b0"', '▸"u0"', "u = {", "u0 = {", "n = 2", 'n = 2\ninput = "u0"'), "as well"),
+    ("coefficient that differs by case from another", transfer('"b0"', '"b0", ▸"A0"'), "differs by case"),
+    ("highest coefficient is zero", transfer("n = 2", "n = 2\nknown = { ▸a2 = 0 }"), "the highest derivative is 0"),
+    ("unknowns as text", transfer('["a0", "a1", "b0"]', '▸"a0"'), "'unknowns' is not a list"),
+    ("unknown that is a number", transfer('"b0"', "▸0"), "not a text"),
+    ("known as a list", transfer("n = 2", "n = 2\nknown = ▸[1]"), "'known' is not a table"),
+    ("known that is no number", transfer("n = 2", 'n = 2\nknown = { a2 = ▸"one" }'), "not a number"),
+    ("output that is not a signal", transfer("n = 2", 'n = 2\noutput = ▸"z"'), "'z' is not a signal"),
+    ("input that is not a signal", transfer("n = 2", 'n = 2\ninput = ▸"z"'), "'z' is not a signal"),
+    ("no signal y", changed(TRANSFER, "y = {", "q = {", "[transfer]", "▸[transfer]"), "'y' is not a signal"),
+    ("second input that is not a signal", inputs('signal = "w"', 'signal = ▸"z"'), "'z' is not a signal"),
+    ("output as input", transfer("n = 2", 'n = 2\ninput = ▸"y"'), "'y' stands twice"),
+    ("an input twice", inputs('signal = "w"', 'signal = ▸"u"'), "'u' stands twice"),
+    ("input that is a number", transfer("n = 2", "n = 2\ninput = ▸3"), "not a text"),
+    ("no input", transfer("n = 2", "n = 2\ninput = ▸[]"), "no input"),
+    ("inputs that are texts", transfer("n = 2", 'n = 2\ninput = [▸"u", ▸"w"]'), "not a table"),
+    ("m beside several inputs", inputs("n = 1", "n = 1\nm = ▸1"), "give each input its own m"),
+    ("coefficient beside several inputs", inputs('["a0"]', '["a0", ▸"d0"]'), "list it with its input"),
+    ("one coefficient in two inputs", inputs('"c0"', '▸"b0"'), "'b0' is named twice"),
+    ("coefficient of the second input forgotten", inputs('[[transfer.input]]\nsignal = "w"\nunknowns = ["c0"]', '▸[[transfer.input]]\nsignal = "w"'), "its b0 is neither unknown nor known"),
+]
+
+# `check` has nothing against these: without a window a model can still be simulated.
+ESTIMATOR_ALONE = [
+    ("no sampling", "▸▸" + coil("[sampling]\nperiod = 0.001\nwindow = 0.02\n", ""), "no sampling period"),
+    ("no period", coil("[sampling]\nperiod = 0.001\n", "▸[sampling]\n"), "no sampling period"),
+    ("no window", coil("[sampling]", "▸[sampling]", "window = 0.02\n", ""), "no window"),
+    ("nothing to estimate", "▸" + coil("[parameters]", ""  # the two are constants now
+                                       ).replace('R = { unit = "ohm" }', 'R = { value = 1, unit = "ohm" }').replace('L = { unit = "H" }', 'L = { value = 1, unit = "H" }'), "nothing to estimate"),
+]
+
+CASES = {"TOML": TOML, "keys": KEYS, "values": VALUES, "names": NAMES, "formulas": FORMULAS, "places": PLACES,
+         "mathematics": MATHEMATICS, "transfer": TRANSFERS}
+
+COMMANDS = [("check", "m.toml"), ("derive", "m.toml"), ("generate", "m.toml", "-o", "out")]
+
+
+class Malformed(ModelCase):
+    def refused(self, text, words, commands, name="m.toml"):
+        content, places = without_marks(text)
+        self.assertTrue(places, "no mark in the text")
+        self.write(content, name)
+        for command in commands:
+            with self.subTest(command=command[0]):
+                code, out, err, seconds = self.run_algest(*command)
+                self.assertEqual(code, 2, out + err)
+                found = complaints(err, name=name)
+                self.assertEqual([place[:2] for place in found], places, err[:2000])
+                self.assertTrue(any(words in place[2] for place in found), f"{words!r} is not said:\n{err[:2000]}")
+                for _, _, complaint in found:
+                    self.assertLess(len(complaint), 400)
+                self.assertEqual(out, "")
+                self.assertTrue(all(character.isprintable() or character == "\n" for character in err), ascii(err))
+                self.assertLess(seconds, 1.0)
+                self.assertEqual(self.entries(), [name])
+
+    def test_what_they_are_made_from_is_sound(self):
+        for text in (COIL, PLAIN, TRANSFER, SEVERAL_INPUTS):
+            self.write(text.encode())
+            self.assertEqual(self.run_algest("check", "m.toml")[:2], (0, "m.toml: ok\n"))
+
+    def test_there_are_enough_and_each_is_another(self):
+        texts = [text for cases in CASES.values() for _, text, _ in cases]
+        self.assertGreaterEqual(len(texts), 120)
+        self.assertEqual(len(texts), len(set(texts)))
+
+    def test_what_an_estimator_needs_and_a_model_may_lack(self):
+        for name, text, words in ESTIMATOR_ALONE:
+            with self.subTest(name):
+                self.refused(text, words, COMMANDS[1:])
+                self.assertEqual(self.run_algest("check", "m.toml")[0], 0)
+
+    def test_several_complaints_come_in_one_run_in_the_order_of_the_file(self):
+        self.refused(COIL.replace('name = "m"', 'name = ▸"M"\n▸colour = "red"')
+                     .replace("0.001", '▸"1 ms"').replace('unit = "V"', 'unit = ▸"Volt-ish", ▸nois = 1')
+                     .replace("R = {", "▸double = {}\nR = {").replace("gain*v - R*i", "gain*▸z - ▸q*i")
+                     + "kappa = ▸-1\n[estimator]\nsolve = ▸\"magic\"\nform = ▸0\n", "unknown name 'q'", COMMANDS)
+
+    def test_complaints_end_after_a_hundred(self):
+        self.write(('name = "m"\n' + "".join(f"k{k} = 1\n" for k in range(50_000))).encode())
+        code, _, err, seconds = self.run_algest("check", "m.toml")
+        self.assertEqual(code, 2)
+        self.assertEqual(err.count(": error: "), 100)
+        self.assertIn("the rest is left out", err)
+        self.assertLess(seconds, 1.0)
+
+    def test_strict_makes_an_error_of_a_missing_unit(self):
+        text = coil('R = { unit = "ohm" }', "▸R = {}", 'i = { unit = "A" }', "▸i = {}")
+        self.refused(text, "'R' has no unit", [("check", "m.toml", "--strict")])
+        code, _, err, _ = self.run_algest("check", "m.toml")
+        self.assertEqual(code, 0)
+        self.assertEqual([place[:2] for place in complaints(err, "warning")], without_marks(text)[1])
+
+    def test_hertz_gets_a_warning(self):
+        content, places = without_marks(coil('i = { unit = "A" }', 'i = { unit = ▸"Hz" }', '"ohm"', '▸"V/Hz"', '"H"', '"V.s/Hz"').replace('"V.s/Hz"', '▸"V.s/Hz"'))
+        self.write(content)
+        for command in COMMANDS:
+            code, _, err, _ = self.run_algest(*command)
+            self.assertEqual(code, 0, err)
+            found = complaints(err, "warning")
+            self.assertEqual([place[:2] for place in found], places)
+            self.assertIn("rad/s", found[0][2])
+
+    def test_json_has_the_same_places(self):
+        content, places = without_marks(coil('name = "m"', 'name = ▸"M"', "gain*v", "gain*▸z"))
+        self.write(content)
+        for command in (*COMMANDS[:2], ("generate", "m.toml", "-o", "out")):
+            code, out, _, _ = self.run_algest(*command, "--json")
+            self.assertEqual(code, 2)
+            errors = json.loads(out)["error"]
+            self.assertEqual([(error["line"], error["column"]) for error in errors], places)
+            self.assertEqual([error["severity"] for error in errors], ["error", "error"])
+            self.assertEqual(self.entries(), ["m.toml"])
+
+    def test_what_is_no_readable_file(self):
+        def refused(name, words):
+            for command, *rest in COMMANDS:
+                code, out, err, seconds = self.run_algest(command, name, *rest[1:])
+                self.assertEqual((code, out), (2, ""), err)
+                self.assertEqual([place[:2] for place in complaints(err, name=name)], [(0, 0)], err)
+                self.assertIn(words, err)
+                self.assertLess(seconds, 1.0)
+                self.assertFalse((self.folder / "out").exists())
+        (self.folder / "folder.toml").mkdir()
+        refused("folder.toml", "is a directory")
+        refused("nothing.toml", "no such file")
+        with open(self.folder / "large.toml", "wb") as file:
+            file.truncate(100_000_000)
+        refused("large.toml", "larger than 1024 KiB")
+        self.write(COIL.encode() + b"#" * 1024 * 1024, "comment.toml")
+        refused("comment.toml", "larger than 1024 KiB")
+        if os.geteuid() != 0:
+            self.write(COIL.encode(), "secret.toml")
+            (self.folder / "secret.toml").chmod(0)
+            refused("secret.toml", "permissions")
+
+    def test_a_sound_model_beside_a_malformed_one_is_generated_alone(self):
+        self.write(COIL.encode())
+        self.write(coil('name = "m"', 'name = "n"', "gain*v", "gain*z").encode(), "n.toml")
+        code, _, err, _ = self.run_algest("generate", "n.toml", "m.toml", "-o", "out")
+        self.assertEqual(code, 2)
+        self.assertEqual(len(complaints(err, name="n.toml")), 1)
+        self.assertEqual(self.entries(), ["m.toml", "n.toml", "out", "out/m", "out/m/m.hpp", "out/m/m.md", "out/m/m_tables.hpp"])
+
+
+def _add(group, cases):
+    def test(self):
+        for name, text, words in cases:
+            with self.subTest(name):
+                self.refused(text, words, COMMANDS)
+    setattr(Malformed, f"test_each_is_refused_where_it_is_wrong_{group}", test)
+
+
+for _group, _cases in CASES.items():
+    _add(_group, _cases)
+
+
+if __name__ == "__main__":
+    unittest.main()
