@@ -42,6 +42,7 @@ struct ReplayOptions {
     std::string model;
     std::string recording;
     std::string output;          ///< CSV of every sample; empty: none
+    std::string scalar = "double";  ///< double, float: as the estimator on the target
     std::optional<double> from;  ///< s
     std::optional<double> to;
     bool json = false;

@@ -72,6 +72,9 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
         ->required();
     command->add_option("-o,--output", options.output, "write status, condition and parameters of every sample")
         ->type_name("FILE.csv");
+    command->add_option("--scalar", options.scalar, "double or float, as the estimator on the target")
+        ->check(CLI::IsMember({"double", "float"}))
+        ->capture_default_str();
     command->add_option("--from", options.from, "start at this instant of the recording")->type_name("SECONDS");
     command->add_option("--to", options.to, "end at this instant")->type_name("SECONDS");
     command->add_flag("--json", options.json, json_text);

@@ -11,11 +11,12 @@ using exact::Rational;
 using formula::Formula;
 using formula::Kind;
 
-constexpr std::size_t most_bits = 10000;   // of numerator and denominator together: 1e1500
+constexpr std::size_t most_bits = 10000;   // of numerator and denominator together
 
 class Evaluation {
 public:
-    Evaluation(const Model& model, const formula::Complain& complain) : model_(model), complain_(complain) {}
+    /// Without `complain` silent, and done with a sum or product as soon as one operand has no value.
+    Evaluation(const Model& model, const formula::Complain* complain) : model_(model), complain_(complain) {}
 
     bool good() const { return good_; }
 
@@ -24,14 +25,18 @@ public:
         const auto value = value_of(f, raised);
         if (!value) return std::nullopt;
         const std::size_t bits = cln::integer_length(cln::numerator(*value)) + cln::integer_length(cln::denominator(*value));
-        if (bits > most_bits) return fail(f, "a number of more than 1000 digits", "write it as a decimal");
+        if (bits > most_bits) return fail(f, "a fraction of thousands of digits", "write it as a decimal");
+        if (!within_power_of_ten(*value, largest_number)) {
+            const std::string limit = std::to_string(largest_number);
+            return fail(f, "a number beyond 1e" + limit + " or closer to 0 than 1e-" + limit, "choose units in which it is of usual size");
+        }
         return value;
     }
 
 private:
     std::nullopt_t fail(const Formula& f, const std::string& what, const std::string& right) {
         good_ = false;
-        complain_(f->start, what, right);
+        if (complain_ != nullptr) (*complain_)(f->start, what, right);
         return std::nullopt;
     }
 
@@ -58,6 +63,7 @@ private:
 
     std::optional<Rational> operation(const Formula& f, const Rational& raised) {
         const auto a = of(f->arguments[0], raised);
+        if (!a && complain_ == nullptr) return std::nullopt;
         const auto b = of(f->arguments[1], raised);
         if (f->kind == Kind::divide && b && cln::zerop(*b)) return fail(f->arguments[1], "division by zero", "remove the term");
         if (!a || !b) return std::nullopt;
@@ -99,19 +105,23 @@ private:
     }
 
     const Model& model_;
-    const formula::Complain& complain_;
+    const formula::Complain* complain_;
     bool good_ = true;
 };
 
 }  // namespace
 
+bool within_power_of_ten(const Rational& value, int exponent) {
+    const Rational size = cln::abs(value);
+    return cln::zerop(value) || (size <= exact::power(Rational(10), exponent) && size >= exact::power(Rational(10), -exponent));
+}
+
 std::optional<Rational> constant_value(const Model& model, const Formula& f) {
-    const formula::Complain silent = [](int, const std::string&, const std::string&) {};
-    return Evaluation(model, silent).of(f);
+    return Evaluation(model, nullptr).of(f);
 }
 
 bool check_constants(const Model& model, const Formula& f, const formula::Complain& complain) {
-    Evaluation evaluation(model, complain);
+    Evaluation evaluation(model, &complain);
     (void)evaluation.of(f);
     return evaluation.good();
 }

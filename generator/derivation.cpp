@@ -22,7 +22,7 @@ using plan::Plan;
 
 kernel::Coefficients coefficients(const std::vector<std::string>& texts) {
     kernel::Coefficients out;
-    for (const std::string& t : texts) out.push_back(*exact::parse(t));
+    for (const std::string& t : texts) out.push_back(exact::from_text(t));
     return out;
 }
 
@@ -30,7 +30,7 @@ kernel::Coefficients coefficients(const std::vector<std::string>& texts) {
 Polynomial in_sigma(const std::vector<std::string>& kernel) {
     Polynomial out;
     for (std::size_t k = 0; k < kernel.size(); ++k) {
-        if (kernel[k] != "0") out.emplace(Exponents{static_cast<int>(k)}, *exact::parse(kernel[k]));
+        if (kernel[k] != "0") out.emplace(Exponents{static_cast<int>(k)}, exact::from_text(kernel[k]));
     }
     return out;
 }
@@ -64,7 +64,7 @@ std::string expansion(const std::vector<plan::LeibnizTerm>& terms) {
     for (const plan::LeibnizTerm& t : terms) {
         const std::string s = power_text("s", t.power);
         const std::string y = t.derivative_in_s == 0 ? "Y" : "Y^(" + std::to_string(t.derivative_in_s) + ")";
-        sum.add(*exact::parse(t.coefficient), s.empty() ? y : s + " " + y);
+        sum.add(exact::from_text(t.coefficient), s.empty() ? y : s + " " + y);
     }
     return sum.text();
 }
@@ -73,7 +73,7 @@ std::string expansion_tex(const std::vector<plan::LeibnizTerm>& terms) {
     SignedSum sum("\\,", true);
     for (const plan::LeibnizTerm& t : terms) {
         const std::string s = t.power == 0 ? "" : t.power == 1 ? "s\\," : "s^{" + std::to_string(t.power) + "}\\,";
-        sum.add(*exact::parse(t.coefficient), s + (t.derivative_in_s == 0 ? "Y" : "Y^{(" + std::to_string(t.derivative_in_s) + ")}"));
+        sum.add(exact::from_text(t.coefficient), s + (t.derivative_in_s == 0 ? "Y" : "Y^{(" + std::to_string(t.derivative_in_s) + ")}"));
     }
     return sum.text();
 }
@@ -89,7 +89,7 @@ std::string time_form(const Plan& plan, const plan::Table& table) {
             const std::string second = power_text("(-tau)", t.derivative_in_s);
             std::string factor = first + (first.empty() || second.empty() ? "" : " ") + second;
             if (gamma > 1) factor += "/" + std::to_string(gamma) + "!";
-            sum.add(*exact::parse(t.coefficient), factor);
+            sum.add(exact::from_text(t.coefficient), factor);
         }
         return "integral over [0,t] of f(tau) times  " + sum.text();
     }
@@ -111,7 +111,7 @@ std::string annihilator_text(const plan::Equation& e) {
     return "Pi = d^" + order + "/ds^" + order + s;
 }
 
-Rational window(const Plan& plan) { return *exact::parse(plan.period_text) * plan.intervals; }
+Rational window(const Plan& plan) { return exact::from_text(plan.period_text) * plan.intervals; }
 
 Data common(const Plan& plan) {
     Data d;
@@ -219,7 +219,7 @@ std::string derivation_text(const Plan& plan) {
     d.set("has_summary", !plan.summary.empty());
     d.set("source", plan.source);
     d.set("has_source", !plan.source.empty());
-    d.set("period", exact::decimal(*exact::parse(plan.period_text)));
+    d.set("period", exact::decimal(exact::from_text(plan.period_text)));
     d.set("intervals", std::to_string(plan.intervals));
     d.set("samples", std::to_string(plan.samples()));
     d.set("solve_text", solve_text(plan));
@@ -272,8 +272,8 @@ std::string derivation_latex(const Plan& plan) {
         SignedSum known_side("\\,", true);
         for (const plan::RowTerm& t : row.terms) {
             const std::string functional = "F_{" + std::to_string(t.derivative) + "," + std::to_string(row.p) + "}\\left[" + tex_of(signal_of(plan, t)) + "\\right]";
-            if (t.lumped < 0) known_side.add(*exact::parse(t.coefficient), functional);
-            else unknown_side.add(*exact::parse(t.coefficient), formula::latex_name(plan.lumped[static_cast<std::size_t>(t.lumped)].name) + "\\," + functional);
+            if (t.lumped < 0) known_side.add(exact::from_text(t.coefficient), functional);
+            else unknown_side.add(exact::from_text(t.coefficient), formula::latex_name(plan.lumped[static_cast<std::size_t>(t.lumped)].name) + "\\," + functional);
         }
         Data q;
         q.set("unknown_side", unknown_side.text());

@@ -39,7 +39,9 @@ struct Walk {
         }
         const double factor = b.factor_to(a);
         if (std::abs(factor - 1.0) > 1e-9) {
-            complain(at, sides + " differ in scale", "declare the signals in units that fit; a recording is converted");
+            complain(at, sides + " differ in scale", "declare every quantity of the equation in units without prefixes, such as H for mH; a recording is converted");
+        } else if (!b.same_origin(a)) {
+            complain(at, sides + " differ in their zero", "declare both in degC or both in K; a recording is converted");
         }
         return a;
     }

@@ -157,7 +157,7 @@ Data head(const Plan& plan) {
     d.set("rows", std::to_string(plan.rows.size()));
     d.set("unknowns", std::to_string(plan.lumped.size()));
     d.set("instants", std::to_string(plan.solve_instants));
-    d.set("period", exact::decimal(*exact::parse(plan.period_text)));
+    d.set("period", exact::decimal(exact::from_text(plan.period_text)));
     return d;
 }
 
@@ -171,10 +171,9 @@ void set_cost(const Plan& plan, Data& d) {
     d.set("overtaken", std::to_string(square ? spare_samples : published_slots - 1));
     d.set("size", std::to_string(instance_bytes(plan)));
     d.set("table_bytes", std::to_string(static_cast<int>(plan.tables.size()) * plan.samples() * scalar_bytes(plan)));
-    const int first_ok = plan.samples() + std::max(plan.solve_instants - 1, 0) + (plan.delayed() ? 1 : 0);
+    const int first_ok = plan.samples_to_first_estimate();
     d.set("first_ok", std::to_string(first_ok));
-    d.set("first_ok_s", exact::decimal(*exact::parse(plan.period_text) * (first_ok - 1)));
-    d.set("restart_note", plan.solve != Solve::least_squares);
+    d.set("first_ok_s", exact::decimal(exact::from_text(plan.period_text) * (first_ok - 1)));
 }
 
 std::string estimator_header(const Plan& plan) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "generator/constant_value.hpp"
 #include "generator/ginac_exact.hpp"
 
 namespace algest::equation {
@@ -36,7 +37,7 @@ public:
 
     OperatorForm build() {
         for (const Formula& side : {equation_.sides.left, equation_.sides.right}) {
-            if (expanded_terms(side) > most_terms) {
+            if (expanded_terms(side).most() > most_terms) {
                 fail(side, "multiplied out, the equation has more than " + std::to_string(static_cast<int>(most_terms)) + " terms", "write it with fewer sums under powers");
             }
         }
@@ -79,23 +80,51 @@ private:
 
     static constexpr double most_terms = 2000;
 
-    /// How many terms a formula has once it is multiplied out, at most.
-    static double expanded_terms(const Formula& f) {
+    /// How many terms numerator and denominator of a formula have once it is multiplied out over a common denominator, at most.
+    /// What is below a signal stays one factor.
+    struct Terms {
+        double above;
+        double below;
+        double most() const { return std::max(above, below); }
+    };
+
+    static double of_power(double terms, int exponent) {
+        double out = 1;
+        for (int k = 1; k <= exponent; ++k) out = out * (terms + k - 1) / k;
+        return out;
+    }
+
+    Terms expanded_terms(const Formula& f) const {
+        if (rational_value(f)) return {1, 1};
         switch (f->kind) {
             case Kind::add:
-            case Kind::subtract: return expanded_terms(f->arguments[0]) + expanded_terms(f->arguments[1]);
-            case Kind::multiply: return expanded_terms(f->arguments[0]) * expanded_terms(f->arguments[1]);
-            case Kind::negate:
-            case Kind::divide: return expanded_terms(f->arguments[0]);
-            case Kind::power: {
-                const double terms = expanded_terms(f->arguments[0]);
-                if (f->arguments[1]->kind != Kind::number) return terms;
-                double out = 1;
-                const int e = cln::cl_I_to_int(cln::floor1(f->arguments[1]->value));   // names_exist has limited it
-                for (int k = 1; k <= e; ++k) out = out * (terms + k - 1) / k;
-                return out;
+            case Kind::subtract: {
+                const Terms a = expanded_terms(f->arguments[0]);
+                const Terms b = expanded_terms(f->arguments[1]);
+                return {a.above * b.below + b.above * a.below, a.below * b.below};
             }
-            default: return 1;
+            case Kind::multiply: {
+                const Terms a = expanded_terms(f->arguments[0]);
+                const Terms b = expanded_terms(f->arguments[1]);
+                return {a.above * b.above, a.below * b.below};
+            }
+            case Kind::negate: return expanded_terms(f->arguments[0]);
+            case Kind::divide: {
+                const Terms a = expanded_terms(f->arguments[0]);
+                if (contents(f->arguments[1]).signals) return a;
+                const Terms b = expanded_terms(f->arguments[1]);
+                return {a.above * b.below, a.below * b.above};
+            }
+            case Kind::power: {
+                const Terms a = expanded_terms(f->arguments[0]);
+                const auto exponent = rational_value(f->arguments[1]);
+                if (!exponent || !exact::is_integer(*exponent) || cln::abs(*exponent) > formula::largest_exponent) return {1, 1};   // a function of its own
+                const int e = cln::cl_I_to_int(cln::numerator(*exponent));
+                if (e >= 0) return {of_power(a.above, e), of_power(a.below, e)};
+                if (contents(f->arguments[0]).signals) return {1, 1};
+                return {of_power(a.below, -e), of_power(a.above, -e)};
+            }
+            default: return {1, 1};
         }
     }
 
@@ -168,40 +197,8 @@ private:
         }
     }
 
-    std::optional<Rational> rational_value(const Formula& f) const {
-        switch (f->kind) {
-            case Kind::number: return f->value;
-            case Kind::name: {
-                const model::Constant* c = model_.constant(f->name);
-                return c == nullptr ? std::nullopt : std::optional<Rational>(c->value);
-            }
-            case Kind::negate: {
-                const auto x = rational_value(f->arguments[0]);
-                return x ? std::optional<Rational>(-*x) : std::nullopt;
-            }
-            case Kind::add:
-            case Kind::subtract:
-            case Kind::multiply:
-            case Kind::divide: {
-                const auto a = rational_value(f->arguments[0]);
-                const auto b = rational_value(f->arguments[1]);
-                if (!a || !b) return std::nullopt;
-                if (f->kind == Kind::add) return *a + *b;
-                if (f->kind == Kind::subtract) return *a - *b;
-                if (f->kind == Kind::multiply) return *a * *b;
-                return cln::zerop(*b) ? std::nullopt : std::optional<Rational>(*a / *b);
-            }
-            case Kind::power: {
-                const auto base = rational_value(f->arguments[0]);
-                const auto exponent = rational_value(f->arguments[1]);
-                if (!base || !exponent || !exact::is_integer(*exponent) || cln::abs(*exponent) > formula::largest_exponent) return std::nullopt;
-                if (cln::zerop(*base) && !cln::plusp(*exponent)) return std::nullopt;
-                return exact::power(*base, cln::cl_I_to_int(cln::numerator(*exponent)));
-            }
-            case Kind::call: return std::nullopt;
-        }
-        return std::nullopt;
-    }
+    /// A formula of numbers and constants: its value, functions and roots to 60 digits.
+    std::optional<Rational> rational_value(const Formula& f) const { return model::constant_value(model_, f); }
 
     ex of(const Formula& f) {
         if (const auto value = rational_value(f)) return to_ginac(*value);

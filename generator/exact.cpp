@@ -53,7 +53,7 @@ std::optional<Rational> parse_decimal(std::string_view text) {
     if (i < text.size()) {
         if (text[i] != 'e' && text[i] != 'E') return std::nullopt;
         ++i;
-        if (i < text.size() && text[i] == '+') ++i;
+        if (i < text.size() && text[i] == '+' && ++i < text.size() && text[i] == '-') return std::nullopt;
         int exponent = 0;
         const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), exponent);
         if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -114,7 +114,7 @@ std::optional<Rational> parse(std::string_view text) {
 
 Rational from_double(double value) {
     char buffer[64];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific);
     (void)error;
     return *parse_decimal(std::string_view(buffer, static_cast<std::size_t>(end - buffer)));
 }
@@ -126,6 +126,8 @@ std::string text(const Rational& value) {
     out << value;
     return out.str();
 }
+
+Rational from_text(const std::string& text) { return Rational(text.c_str()); }
 
 std::string decimal(const Rational& value) {
     // A decimal ends where the denominator divides a power of ten.

@@ -28,6 +28,9 @@ bool is_integer(const Rational& value);
 /// "-1/6", "3".
 std::string text(const Rational& value);
 
+/// Reads what text() wrote, of any length.
+Rational from_text(const std::string& text);
+
 /// "0.0001" where the decimal ends, else the fraction "1/3"; for people.
 std::string decimal(const Rational& value);
 

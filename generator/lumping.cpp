@@ -221,9 +221,27 @@ private:
         return out;
     }
 
+    /// Terms of the product of the different leading coefficients, at most: what dividing has to multiply out.
+    double size_of_denominator(const Component& c) const {
+        std::vector<Polynomial> different;
+        double size = 1;
+        for (const int e : c.equations) {
+            if (std::find(different.begin(), different.end(), leading(e)) != different.end()) continue;
+            different.push_back(leading(e));
+            size *= static_cast<double>(leading(e).size());
+        }
+        return size;
+    }
+
     bool lump_component(const Component& c, int number) {
-        const Divided quotient = divided(c);
         const bool linear = linear_as_written(c);
+        if (size_of_denominator(c) > 64) {
+            if (linear) return take_as_written(c, number);
+            const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
+            diagnostics_.error(model_.path, equation.at, "the leading coefficients of the equations that share parameters are too long to divide by", "name sums of parameters as parameters of their own");
+            return false;
+        }
+        const Divided quotient = divided(c);
         const std::size_t physical = c.parameters.size();
         if (linear && physical < quotient.unknowns.size()) return take_as_written(c, number);
         if (quotient.unknowns.size() > physical) return refuse_surplus(c, quotient);
@@ -286,12 +304,14 @@ private:
         }
         std::vector<Polynomial> columns(c.parameters.size());
         int place = 0;
+        bool known = false;
         each_term(c, [&](int e, int k, const Term& term) {
             LumpedTerm lumped{k, 0, {}};
             for (const auto& [exponents, coefficient] : term.coefficient) {
                 const auto at = std::find(exponents.begin(), exponents.end(), 1);
                 if (at == exponents.end()) {
                     lumped.known = coefficient;
+                    known = true;
                     continue;
                 }
                 const int p = static_cast<int>(at - exponents.begin());
@@ -302,6 +322,12 @@ private:
             ++place;
             keep(e, lumped, number, false, one());
         });
+        if (!known) {
+            const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
+            diagnostics_.unidentifiable(model_.path, equation.at, "nothing known stands in the equations of " + list(c.parameters) + ": they hold for any multiple of their values",
+                                        "declare one of them under [constants]");
+            return false;
+        }
         for (std::size_t k = 0; k < columns.size(); ++k) {
             const Span::Reduced reduced = span.reduce(columns[k]);
             if (reduced.rest.empty()) {

@@ -25,7 +25,6 @@ constexpr int longest_key = 10;           // dotted parts; a model needs 4
 constexpr int most_complaints = 100;
 constexpr std::size_t most_entries = 100;   // signals, constants, parameters, equations, each
 constexpr std::size_t longest_unit = 60;
-constexpr int largest_number = 100;       // 10^+-this
 constexpr int largest_time = 9;           // 10^+-this, s
 
 struct TooMany {};   // unwinds the reader after most_complaints
@@ -69,8 +68,6 @@ std::string suggestion(std::string_view key, const std::vector<std::string>& kno
     }
     return (closest == nullptr ? "" : "did you mean " + *closest + "? ") + "keys here: " + all;
 }
-
-Rational power_of_ten(int exponent) { return exact::power(Rational(10), exponent); }
 
 /// Reads one model file; holds what the readers of its parts share.
 class Reader {
@@ -217,18 +214,12 @@ private:
             value = exact::parse(*text);
         }
         if (!value) return not_a_number();
-        if (!within(*value, largest_number)) {
+        if (!within_power_of_ten(*value, largest_number)) {
             error(node, quoted(key) + " is beyond 1e" + std::to_string(largest_number) + " or closer to 0 than 1e-" + std::to_string(largest_number),
                   "choose units in which it is of usual size");
             return std::nullopt;
         }
         return value;
-    }
-
-    /// True for 0 and for what is between 10^-exponent and 10^exponent in size.
-    static bool within(const Rational& value, int exponent) {
-        const Rational size = cln::abs(value);
-        return cln::zerop(value) || (size <= power_of_ten(exponent) && size >= power_of_ten(-exponent));
     }
 
     std::optional<Rational> number(const toml::table& table, std::string_view key) {
@@ -248,7 +239,7 @@ private:
     /// A time in seconds, positive.
     std::optional<Rational> duration(const toml::table& table, std::string_view key) {
         const auto value = positive(table, key);
-        if (value && !within(*value, largest_time)) {
+        if (value && !within_power_of_ten(*value, largest_time)) {
             const std::string limit = std::to_string(largest_time);
             error(*table.get(key), "'" + std::string(key) + "' is beyond 1e" + limit + " s or below 1e-" + limit + " s", "it is in seconds");
             return std::nullopt;

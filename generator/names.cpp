@@ -60,6 +60,12 @@ std::optional<NameFault> fault_of_name(const std::string& name) {
     }
     if (contains(cpp_words, name)) return NameFault{"'" + name + "' is a C++ keyword", "choose another name, e.g. " + name + "1"};
     if (contains(taken, name)) return NameFault{"'" + name + "' is taken by generated code", "choose another name, e.g. " + name + "1"};
+    // Macros of <cmath>, <cfloat>, <climits>, <cstdint>: M_PI, FP_NAN, SIZE_MAX, FLT_EPSILON.
+    const auto starts = [&](std::string_view s) { return name.compare(0, s.size(), s) == 0; };
+    const auto ends = [&](std::string_view s) { return name.size() > s.size() && name.compare(name.size() - s.size(), s.size(), s) == 0; };
+    if (starts("M_") || starts("FP_") || starts("DBL_") || starts("FLT_") || ends("_MAX") || ends("_MIN")) {
+        return NameFault{"'" + name + "' may be a macro of the standard headers", "choose another name, in lower case"};
+    }
     if (name == "der" || formula::is_function(name)) return NameFault{"'" + name + "' is a function", "choose another name"};
     return std::nullopt;
 }
@@ -77,8 +83,10 @@ std::optional<NameFault> fault_of_model_name(const std::string& name) {
 std::string class_name(const std::string& model_name) {
     std::string out;
     bool upper = true;
-    for (const char c : model_name) {
-        if (c == '_') {
+    for (std::size_t k = 0; k < model_name.size(); ++k) {
+        const char c = model_name[k];
+        const bool before_digit = k + 1 < model_name.size() && std::isdigit(static_cast<unsigned char>(model_name[k + 1])) != 0;
+        if (c == '_' && !before_digit) {   // a1 and a_1 are two classes
             upper = true;
         } else {
             out += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;

@@ -3,6 +3,7 @@
 #include "generator/plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -48,6 +49,7 @@ public:
         tables_and_rows(*weights);
         unknowns_and_parameters();
         solver();
+        if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
         return std::move(plan_);
     }
 
@@ -69,14 +71,7 @@ private:
             diagnostics_.error(model_.path, model_.sampling_at, "no window: an estimator needs one",
                                "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
         }
-        if (model_.growing) {
-            diagnostics_.error(model_.path, model_.sampling_at, "growing = true needs the moments engine, which this version does not have",
-                               "leave it out: the window then slides from the start");
-        }
         if (model_.parameters.empty()) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
-        if (!diagnostics_.has_errors() && model_.estimator.quadrature == plan::Quadrature::simpson && cln::oddp(cln::numerator(intervals()))) {
-            diagnostics_.error(model_.path, model_.estimator.at, "Simpson's rule needs an even number of periods in the window", "change the window by one period");
-        }
         return !diagnostics_.has_errors();
     }
 
@@ -93,7 +88,7 @@ private:
         plan_.rate = exact::nearest(1 / *model_.period, options_.scalar);
         plan_.intervals = cln::cl_I_to_int(cln::numerator(intervals()));
         plan_.quadrature = model_.estimator.quadrature;
-        if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\", functional = \"annihilator\"");
+        if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\"");
         const std::string engine = options_.engine.empty() ? model_.estimator.engine : options_.engine;
         if (engine == "moments") plan_.notes.push_back("engine moments is not in this version: fir is used, which gives the same numbers");
     }
@@ -298,9 +293,47 @@ private:
             plan_.solve_instants = cln::cl_I_to_int(cln::floor1(window / *model_.period)) + 1;
         }
         plan_.keep = e.forgetting == 1 ? 1.0 : exact::nearest(*exact::function_value("sqrt", e.forgetting), plan_.scalar);
-        plan_.condition_limit = e.condition_limit ? exact::nearest(*e.condition_limit, plan_.scalar)
-                                : plan_.scalar == plan::Scalar::float64 ? algest::default_condition_limit<double>()
-                                                                        : static_cast<double>(algest::default_condition_limit<float>());
+        plan_.condition_limit = e.condition_limit ? exact::nearest(*e.condition_limit, plan_.scalar) : default_condition_limit();
+        if (plan_.scalar == plan::Scalar::float32) {
+            for (const plan::Equation& q : plan_.equations) {
+                if (q.n < 3) continue;
+                plan_.notes.push_back("single precision does not hold equation '" + q.name + "' of order " + std::to_string(q.n) + ": its kernels cancel (a third-order DC motor is off by 5 percent); use double");
+            }
+        }
+    }
+
+    /// Rows of a machine that is excited well have a condition of 10 to 1e4; beyond 1e5 they tell noise and rounding apart no more.
+    /// Single precision stops where rounding alone would cost three digits of seven; S(t) squares the condition of its rows.
+    double default_condition_limit() const {
+        if (plan_.scalar == plan::Scalar::float64) return 1e5;
+        return plan_.solve == algest::Solve::robust ? 92.0 : 8.4e3;   // sqrt(1e-3 / epsilon), 1e-3 / epsilon
+    }
+
+    bool numbers_fit_the_scalar() {
+        const auto finite = [](const std::vector<double>& numbers) { return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }); };
+        std::vector<double> numbers = {plan_.rate, plan_.condition_limit};
+        for (const plan::Row& row : plan_.rows) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
+        for (const plan::Parameter& p : plan_.parameters) numbers.push_back(p.initial);
+        for (const plan::Tape* tape : {&plan_.signals, &plan_.parameter_map}) for (const plan::Operation& o : tape->operations) numbers.push_back(o.value);
+        const bool tables_fit = std::all_of(plan_.tables.begin(), plan_.tables.end(), [&](const plan::Table& t) { return finite(t.weights); });
+        if (tables_fit && finite(numbers)) return true;
+        diagnostics_.error(model_.path, model_.sampling_at, std::string("a number of the estimator is beyond the range of ") + (plan_.scalar == plan::Scalar::float64 ? "double" : "float"),
+                           "measure in units of the signals' own size, e.g. ms and mm, or use double");
+        return false;
+    }
+
+    /// The runtime counts in 16 bits, and sizes in 31.
+    bool fits_the_runtime() {
+        std::size_t terms = 0;
+        for (const plan::Row& row : plan_.rows) terms += row.terms.size();
+        const std::size_t most = std::max({plan_.tables.size(), plan_.window_signals.size(), plan_.rows.size(), plan_.lumped.size(), terms});
+        const double unknowns = static_cast<double>(plan_.lumped.size());
+        const double scalars = std::max(2.0 * static_cast<double>(plan_.window_signals.size()) * (plan_.samples() + algest::spare_samples),
+                                        std::max((plan_.solve_instants + 5.0) * (unknowns + 1) * (unknowns + 2) / 2, static_cast<double>(plan_.tables.size()) * plan_.samples()));
+        if (most < 65535 && scalars < 2e8) return true;
+        diagnostics_.error(model_.path, model_.sampling_at, "the estimator is too large: " + std::to_string(terms) + " terms, arrays of up to " + std::to_string(static_cast<long>(scalars)) + " numbers",
+                           "use a shorter window, fewer rows, or fewer equations in one model");
+        return false;
     }
 
     const model::Model& model_;
@@ -322,7 +355,12 @@ bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics)
     const auto forms = Planner::operator_forms(*model, diagnostics);
     if (!forms) return false;
     const auto lumping = lumping::lump(*model, *forms, diagnostics);
-    if (lumping && !model->parameters.empty()) (void)choose_rows(*model, *lumping, diagnostics);
+    if (!lumping) return false;
+    if (!model->parameters.empty()) {
+        const auto rows = choose_rows(*model, *lumping, diagnostics);
+        if (rows && model->window) (void)row_weights(*model, *forms, *lumping, *rows, diagnostics);
+        if (!model->window || !model->period) diagnostics.note(path, "sound; without [sampling] period and window it serves simulation, an estimator needs both");
+    }
     return !diagnostics.failed();
 }
 
@@ -330,7 +368,6 @@ std::optional<plan::Plan> plan_from_model(const std::string& path, const PlanOpt
     const auto model = model::read(path, false, diagnostics);
     if (!model) return std::nullopt;
     auto plan = Planner(*model, options, diagnostics).run();
-    if (plan) for (const std::string& note : plan->notes) diagnostics.note(path, note);
     return diagnostics.failed() ? std::nullopt : plan;
 }
 

@@ -131,6 +131,8 @@ struct Plan {
     std::vector<std::string> notes;   ///< what was chosen for the user, in words
 
     int samples() const { return intervals + 1; }
+    /// From a start or restart: the window, the instants of S(t), the sample that primes a delayed model.
+    int samples_to_first_estimate() const { return samples() + (solve_instants > 0 ? solve_instants - 1 : 0) + (delayed() ? 1 : 0); }
     bool delayed() const {
         for (const WindowSignal& s : window_signals) if (s.delayed) return true;
         return false;

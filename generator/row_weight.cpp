@@ -42,9 +42,18 @@ std::optional<Rational> noise_of(const model::Model& model, const equation::Oper
 /// The unit of the equation's rows: divided, it is that of its highest derivative.
 units::Unit unit_of_rows(const model::Model& model, std::size_t e, const equation::OperatorForm& form, const lumping::LumpedEquation& lumped) {
     if (!lumped.divided) return model::unit_of_equation(model, model.equations[e]);
+    if (form.leading < 0) return {};   // divided by the coefficient of a product
     const equation::Term& term = form.terms[static_cast<std::size_t>(form.leading)];
     const std::string& unit = model.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(term.product[0].atom)].signal)].unit;
     return unit.empty() ? units::Unit() : units::Unit::parse(unit)->over(units::Unit::parse("s")->power(form.n));
+}
+
+/// The written scale, in the unit of the equation as the rows use it: divided like the equation.
+std::optional<Rational> scale_of(const model::Model& model, std::size_t e, const lumping::LumpedEquation& lumped) {
+    if (!model.equations[e].scale) return std::nullopt;
+    const auto leading = at_initial(lumped.leading.numerator, model);
+    if (!leading || cln::zerop(*leading)) return std::nullopt;
+    return *model.equations[e].scale / cln::abs(*leading);
 }
 
 }  // namespace
@@ -61,6 +70,7 @@ std::optional<RowWeights> row_weights(const model::Model& model, const std::vect
         for (std::size_t other = 0; other < equations; ++other) {
             if (lumping.equations[other].used && lumping.equations[other].component == lumping.equations[e].component) group.push_back(other);
         }
+        if (group.size() == 1) continue;
         bool mixed = false;
         bool all_noisy = true;
         bool all_scaled = true;
@@ -69,16 +79,15 @@ std::optional<RowWeights> row_weights(const model::Model& model, const std::vect
             const units::Unit theirs = unit_of_rows(model, other, forms[other], lumping.equations[other]);
             mixed = mixed || (mine.known() && theirs.known() && !mine.same_dimension(theirs));
             all_noisy = all_noisy && noise_of(model, forms[other], lumping.equations[other]).has_value();
-            all_scaled = all_scaled && model.equations[other].scale.has_value();
+            all_scaled = all_scaled && scale_of(model, other, lumping.equations[other]).has_value();
         }
-        if (group.size() == 1) continue;
         if (all_noisy) {
             size[e] = *noise_of(model, forms[e], lumping.equations[e]);
         } else if (all_scaled) {
-            size[e] = *model.equations[e].scale;
+            size[e] = *scale_of(model, e, lumping.equations[e]);
         } else if (mixed) {
             diagnostics.error(model.path, model.equations[e].at, "equation '" + model.equations[e].name + "' is pooled with equations of other units, and nothing says how they compare",
-                              "declare noise = ... for the signals with the highest derivatives, or scale = ... in each equation");
+                              "declare noise = ... for the signals with the highest derivatives, or scale = ... in each equation, and initial = ... for the parameters of the leading coefficients");
             return std::nullopt;
         }
     }

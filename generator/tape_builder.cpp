@@ -66,7 +66,10 @@ int TapeBuilder::add(Op op, int a, int b) {
 
 int TapeBuilder::power(int base, int exponent) {
     if (exponent == 0) return constant(1);
-    if (exponent < 0) return add(Op::div, constant(1), power(base, -exponent));
+    if (exponent < 0) {
+        const int one = constant(1);   // first: operations are numbered in the order in which they are made
+        return add(Op::div, one, power(base, -exponent));
+    }
     int out = -1;
     int square = base;
     for (int rest = exponent; rest > 0; rest /= 2) {

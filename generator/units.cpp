@@ -80,6 +80,14 @@ double Unit::factor_to(const Unit& other) const {
     return factor;
 }
 
+bool Unit::same_origin(const Unit& other) const {
+    cv_converter* converter = ut_get_converter(raw(unit_), raw(other.unit_));
+    if (converter == nullptr) return false;
+    const double offset = cv_convert_double(converter, 0.0);
+    cv_free(converter);
+    return offset == 0.0;
+}
+
 std::string Unit::text() const {
     if (!known()) return "?";
     char buffer[256];
@@ -96,7 +104,7 @@ std::optional<std::string> right_spelling(const std::string& text) {
         {"kgm2", "kg.m^2"}, {"kgm^2", "kg.m^2"}, {"kgm", "kg.m"}, {"kgcm2", "kg.cm^2"}, {"gcm2", "g.cm^2"},
         {"Vs", "V.s"}, {"Vs/rad", "V.s/rad"}, {"As", "A.s"}, {"Ws", "W.s"}, {"Js", "J.s"}, {"Wbm", "Wb.m"},
         {"ohmm", "ohm.m"}, {"Ohm", "ohm"}, {"Ohms", "ohm"}, {"mNm", "mN.m"}, {"kNm", "kN.m"}, {"Nm2/A2", "N.m^2/A^2"},
-        {"Nm^2/A^2", "N.m^2/A^2"}, {"radian/sec", "rad/s"}, {"rps", "revolution/s"}, {"RPM", "rpm"}, {"mtr", "m"},
+        {"Nm^2/A^2", "N.m^2/A^2"}, {"radian/sec", "rad/s"}, {"deg/s", "degree/s"}, {"deg", "degree"}, {"rev/min", "rpm"}, {"r/min", "rpm"}, {"U/min", "rpm"}, {"rev/s", "revolution/s"}, {"rps", "revolution/s"}, {"RPM", "rpm"}, {"mtr", "m"},
     };
     const auto found = known.find(text);
     if (found == known.end()) return std::nullopt;
@@ -108,6 +116,16 @@ bool mentions_hertz(const std::string& text) {
         if (at + 2 == text.size() || std::isalpha(static_cast<unsigned char>(text[at + 2])) == 0) return true;
     }
     return text.find("hertz") != std::string::npos;
+}
+
+bool takes_turns_for_radians(const std::string& from, const std::string& to) {
+    const auto has_angle = [](const std::string& unit) {
+        for (const char* angle : {"rad", "deg", "rev", "rpm", "turn", "cycle", "grad", "gon", "arc"}) if (unit.find(angle) != std::string::npos) return true;
+        return false;
+    };
+    const auto a = Unit::parse(from);
+    const auto rate = Unit::parse("1/s");
+    return a && a->same_dimension(*rate) && has_angle(to) && !has_angle(from);
 }
 
 std::optional<Conversion> conversion(const std::string& from, const std::string& to) {

@@ -22,6 +22,8 @@ public:
     bool same_dimension(const Unit& other) const;      ///< both known and convertible
     /// The number by which a value in this unit is multiplied to be in `other` (offsets of temperatures left out).
     double factor_to(const Unit& other) const;
+    /// True when zero in this unit is zero in `other`: not so for degC and K.
+    bool same_origin(const Unit& other) const;
     /// As UDUNITS prints it, in base units where no shorter name exists.
     std::string text() const;
 
@@ -34,6 +36,9 @@ std::optional<std::string> right_spelling(const std::string& text);
 
 /// True when the unit is hertz, or contains it: UDUNITS converts Hz to rad/s with factor 1.
 bool mentions_hertz(const std::string& text);
+
+/// True for a rate without an angle (1/min, Hz) that is to be read as an angular speed (rad/s): UDUNITS takes a turn for a radian.
+bool takes_turns_for_radians(const std::string& from, const std::string& to);
 
 /// value_in_to = scale * value_in_from + offset.
 struct Conversion {

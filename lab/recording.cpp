@@ -305,6 +305,10 @@ std::optional<std::vector<double>> signal_values(const Recording& recording, con
         complain_of_unit(recording, *column, wanted, diagnostics);
         return std::nullopt;
     }
+    if (units::takes_turns_for_radians(*column->unit, wanted.unit)) {
+        diagnostics.warning(recording.file, at, fmt::format("column {} in {} is read as an angular speed, one per unit of time as one radian", quoted(column->name), *column->unit),
+                            "write rpm or revolution/s where turns are counted");
+    }
     std::vector<double> values = column->values;
     for (double& value : values) value = value * conversion->scale + conversion->offset;
     return values;

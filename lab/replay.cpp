@@ -31,7 +31,7 @@ RowRange rows_of(const Recording& recording, const Stretch& stretch) {
 }
 
 bool check_length(const plan::Plan& plan, const Recording& recording, RowRange rows, Diagnostics& diagnostics) {
-    const int needed = samples_to_first_estimate(plan);
+    const int needed = plan.samples_to_first_estimate();
     if (rows.size() >= static_cast<std::size_t>(needed)) return true;
     const bool whole = rows.size() == recording.samples();
     diagnostics.error(
@@ -110,11 +110,6 @@ std::string csv(const plan::Plan& plan, const Replay& replay) {
 }
 
 }  // namespace
-
-int samples_to_first_estimate(const plan::Plan& plan) {
-    const int instants = plan.solve == Solve::robust ? plan.solve_instants - 1 : 0;
-    return plan.samples() + instants + (plan.delayed() ? 1 : 0);
-}
 
 std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording, const Stretch& stretch,
                              Diagnostics& diagnostics, const ProgressReport& progress) {

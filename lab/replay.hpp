@@ -46,9 +46,6 @@ struct ReplaySummary {
 /// Told now and then how much is done, 0 to 1.
 using ProgressReport = std::function<void(double)>;
 
-/// Samples up to the first estimate: the window, the instants of S(t), the sample that primes a delayed model.
-int samples_to_first_estimate(const plan::Plan& plan);
-
 /// Runs the plan, in its own scalar, over the stretch. Nullopt, and errors in `diagnostics`, if a signal's column is missing
 /// or in a unit that does not convert, if the periods differ, or if the stretch is too short for one estimate.
 /// Cost: HostEstimator::step a sample. Memory: (parameters + 3) * 8 bytes a sample.

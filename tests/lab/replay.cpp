@@ -122,7 +122,7 @@ TEST_CASE("a recording that does not fit the model is refused with what would") 
 }
 
 TEST_CASE("the first estimate comes after the window, the instants of S(t) and the priming sample") {
-    CHECK(lab::samples_to_first_estimate(test::conductance()) == 3);
-    CHECK(lab::samples_to_first_estimate(test::line(Solve::robust, 3)) == 4);
-    CHECK(lab::samples_to_first_estimate(test::slope()) == 3);
+    CHECK(test::conductance().samples_to_first_estimate() == 3);
+    CHECK(test::line(Solve::robust, 3).samples_to_first_estimate() == 4);
+    CHECK(test::slope().samples_to_first_estimate() == 3);
 }

@@ -2,11 +2,13 @@
 // The estimator behind every generated class and every replay: samples -> windows -> rows -> solve.
 //
 // One producer calls push (an interrupt, say), one consumer calls estimate (the background). The consumer copies what it
-// needs under a sequence counter, and reads window samples that the producer does not touch for `spare` more pushes.
+// needs under a sequence counter, and reads window samples that the producer does not touch for spare_samples more pushes.
+// Copies that a push has spoilt are thrown away; C++ still calls such reads a data race, and ThreadSanitizer reports them.
 #pragma once
 #include <cstdint>
 
 #include "algest/abi.hpp"
+#include "algest/arithmetic.hpp"
 #include "algest/gram_window.hpp"
 #include "algest/rows.hpp"
 #include "algest/solve_gram.hpp"
@@ -53,7 +55,10 @@ constexpr int published_scalars(Solve solve, int unknowns) noexcept {
 constexpr int push_scratch(int rows, int unknowns) noexcept { return rows * (unknowns + 1); }
 /// Scalars of scratch that estimate needs.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
-    return rows * (unknowns + 1) + packed_size(unknowns + 1) + unknowns * (unknowns + 1) + 3 * unknowns;
+    int most = solve_rows_scratch(unknowns);
+    if (solve_gram_scratch(unknowns) > most) most = solve_gram_scratch(unknowns);
+    if (solve_triangle_scratch(unknowns) > most) most = solve_triangle_scratch(unknowns);
+    return rows * (unknowns + 1) + packed_size(unknowns + 1) + most;
 }
 
 /// How far the producer is. Written by push and reset alone.
@@ -65,7 +70,7 @@ struct Progress {
     std::uint32_t absorbed;   ///< 1 when the sums hold what the solve needs
     std::uint32_t rejected;   ///< 1 when the newest sample was refused
     GramProgress gram;
-    std::int32_t reserved;    ///< keeps the size a multiple of 8 on every target
+    std::int32_t reserved;    ///< makes the size a multiple of 8 where int has 32 bits
 };
 
 /// The arrays of one instance; sizes by the functions above.
@@ -141,9 +146,11 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
     if (p.filled < rows.samples) ++p.filled;
     if (blueprint.solve != Solve::square && p.filled == rows.samples) {
         evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch);
-        if (blueprint.solve == Solve::robust) {
+        if (!all_finite(scratch, push_scratch(rows.rows, rows.unknowns))) {
+            // Rows that overflow are left out: the sums would not recover from them.
+        } else if (blueprint.solve == Solve::robust) {
             add_instant(memory.sums, p.gram, scratch, rows.rows, rows.unknowns, blueprint.solve_instants);
-            p.absorbed = p.gram.served == blueprint.solve_instants ? 1U : 0U;
+            p.absorbed = gram_is_full(p.gram, blueprint.solve_instants) ? 1U : 0U;
         } else {
             add_rows(memory.sums, scratch, rows.rows, rows.unknowns, blueprint.keep);
             p.absorbed = 1;

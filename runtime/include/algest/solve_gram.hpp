@@ -14,8 +14,8 @@ namespace algest {
 constexpr int solve_gram_scratch(int unknowns) noexcept { return unknowns * unknowns + 3 * unknowns; }
 
 /// Solves with the packed upper triangle of [P|Q]'[P|Q] (size unknowns + 1). S is scaled to a unit diagonal, so that
-/// pivots and condition speak of the data and not of units. Condition: trace(S) trace(S^-1) of the scaled S, an upper
-/// bound of its spectral condition number, which is the square of that of the rows. Rank test: a pivot at or
+/// pivots and condition speak of the data and not of units. Condition: sqrt(trace(S) trace(S^-1)) of the scaled S, which is
+/// |R|_F |R^-1|_F of all rows stacked, as the other solvers report it; S itself has its square. Rank test: a pivot at or
 /// below unknowns * epsilon. Fixed loops, no allocation, never throws. On `regular == false` the solution is untouched.
 /// Cost: about unknowns^3 / 2 operations and unknowns square roots.
 template <class S>
@@ -68,7 +68,7 @@ inline Solved<S> solve_gram(const S* gram, int unknowns, S* scratch, S* solution
     }
     if (!all_finite(x, n)) return singular;
     for (int i = 0; i < n; ++i) solution[i] = x[i] / scale[i];
-    return {true, S(n) * inverse_trace};
+    return {true, std::sqrt(S(n) * inverse_trace)};
 }
 
 }  // namespace algest

@@ -15,7 +15,7 @@ constexpr int triangle_scalars(int unknowns) noexcept { return packed_size(unkno
 
 /// Rotates one instant's rows (rows x (unknowns+1), destroyed) into the triangle. `keep` multiplies the old triangle
 /// first: 1 keeps every row for good, sqrt(lambda) forgets with factor lambda an instant.
-/// Cost: about 3 rows (unknowns+1)^2 operations and rows (unknowns+1) square roots. Never fails.
+/// Cost: about 3 rows (unknowns+1)^2 operations and rows (unknowns+1) square roots. The rows must be finite. Never fails.
 template <class S>
 inline void add_rows(S* triangle, S* matrix, int rows, int unknowns, S keep) noexcept {
     const int width = unknowns + 1;
@@ -26,11 +26,15 @@ inline void add_rows(S* triangle, S* matrix, int rows, int unknowns, S keep) noe
         S* row = matrix + r * width;
         for (int i = 0; i < width; ++i) {
             S* pivot_row = triangle + packed_index(width, i, i);
-            const S length = std::sqrt(pivot_row[0] * pivot_row[0] + row[i] * row[i]);
-            if (!(length > S(0))) continue;
-            const S c = pivot_row[0] / length;
-            const S s = row[i] / length;
-            pivot_row[0] = length;
+            // Divided by the larger first: squares neither overflow nor vanish.
+            const S size = larger(std::abs(pivot_row[0]), std::abs(row[i]));
+            if (!(size > S(0))) continue;
+            const S a = pivot_row[0] / size;
+            const S b = row[i] / size;
+            const S length = std::sqrt(a * a + b * b);
+            const S c = a / length;
+            const S s = b / length;
+            pivot_row[0] = size * length;
             for (int j = i + 1; j < width; ++j) {
                 const S above = pivot_row[j - i];
                 pivot_row[j - i] = c * above + s * row[j];

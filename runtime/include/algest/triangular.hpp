@@ -13,12 +13,6 @@ struct Solved {
     S condition;
 };
 
-/// Largest condition number up to which a solution still carries about three digits in scalar S.
-template <class S>
-constexpr S default_condition_limit() noexcept {
-    return S(1e-3) / std::numeric_limits<S>::epsilon();
-}
-
 /// Smallest scaled pivot, relative to the largest, that a rank test of n columns accepts.
 template <class S>
 constexpr S smallest_pivot(int n) noexcept {
