@@ -28,7 +28,8 @@ function(algest_add_estimator target model)
     set(generator "$<TARGET_FILE:algest>")
     set(generator_changes algest)
   else()
-    message(FATAL_ERROR "algest_add_estimator(${target}): set ALGEST_EXECUTABLE to an algest that runs on this machine")
+    message(FATAL_ERROR "algest_add_estimator(${target}): set ALGEST_EXECUTABLE to an algest that runs on this machine,"
+      " or ALGEST_HOST to ON to build it along")
   endif()
 
   # The model's own `name` says what the files are called: a top-level key, so it stands before the first table.
