@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Model files in a folder of the test's own, and `algest` run on them. A mark in a text shows where a complaint belongs."""
+import re
 import resource
 import subprocess
 import tempfile
 import unittest
+from fractions import Fraction
 from pathlib import Path
 
 from environment import ALGEST
@@ -40,6 +42,15 @@ def complaints(err, severity="error", name="m.toml"):
         place = [int(number) for number in head[len(name) + 1:].split(":")] if head != name else [0, 0]
         out.append((place[0], place[1], text))
     return out
+
+
+def value(text, numbers):
+    """Of a formula of names, numbers and + - * / ^ ( ), exactly."""
+    if not re.fullmatch(r"[\w+\-*/^() .]+", text):
+        raise AssertionError(f"not a formula: {text}")
+    python = re.sub(r"(?<![\w.])(\d+)(?![\w.])", r"Fraction(\1)", text.replace("^", "**"))
+    python = re.sub(r"\*\*Fraction\((\d+)\)", r"**\1", python)
+    return eval(python, {"Fraction": Fraction, "__builtins__": {}}, dict(numbers))
 
 
 class ModelCase(unittest.TestCase):

@@ -84,6 +84,33 @@ unknowns = ["c0"]
 """
 
 
+# Two equations of different units that share a parameter.
+MOTOR = """\
+name = "m"
+[sampling]
+period = 0.001
+window = 0.02
+[signals]
+u = { unit = "V" }
+i = { unit = "A" }
+w = { unit = "rad/s" }
+[parameters]
+R = { unit = "ohm" }
+K = { unit = "V.s/rad" }
+b = { unit = "N.m.s/rad" }
+[constants]
+L = { value = 0.1, unit = "H" }
+J = { value = 0.1, unit = "kg.m^2/rad" }
+c = { value = 1, unit = "N.m.rad/(V.A.s)" }
+[[equation]]
+ode = ▸"L*der(i) = u - R*i - K*w"
+[[equation]]
+ode = "J*der(w) = c*K*i - b*w"
+[estimator]
+solve = "robust"
+"""
+
+
 def changed(text, *pairs):
     """The text with replacements; what is replaced must stand there exactly once."""
     for old, new in zip(pairs[::2], pairs[1::2]):
@@ -270,6 +297,10 @@ VALUES = [
     ("unknown engine", estimator('engine = ▸"gpu"\n'), "fir | moments"),
     ("unknown quadrature", estimator('quadrature = ▸"romberg"\n'), "exact | trapezoid | simpson"),
     ("Simpson with an odd number of periods", changed(estimator('quadrature = ▸"simpson"\n'), "0.02", "0.021"), "even number of periods"),
+    ("equations of different units pooled", MOTOR, "pooled with equations of other units"),
+    ("equations of different units pooled, noise of one", changed(MOTOR, 'unit = "A"', 'unit = "A", noise = 0.1', "robust", "least_squares"), "noise = "),
+    ("equations of different units pooled, scale of one", changed(MOTOR, "- b*w\"", "- b*w\"\nscale = 3"), "scale = "),
+    ("equations of different units in more rows than unknowns", changed(MOTOR, "robust", "square", "- b*w\"", "- b*w\"\nrows = 3"), "pooled with equations of other units"),
     ("forgetting above 1", estimator("forgetting = ▸1.01\n"), "above 1"),
     ("forgetting everything", estimator("forgetting = ▸0\n"), "not positive"),
     ("condition limit of zero", estimator("condition_limit = ▸0\n"), "not positive"),
@@ -397,7 +428,10 @@ FORMULAS = [
     ("tower of powers", ode("der(x) = a*x + b*2^▸9^9*u"), "the exponent is beyond 32"),
     ("powers of powers", ode("der(x) = a*((((x^32)^32)^32)^▸32)^32 + b*u"), "powers of powers beyond 32"),
     ("powers of powers of a number", ode("der(x) = a*x + b*((((((((2^32)^32)^32)^32)^32)^32)^32)^▸32)^32*u"), "powers of powers beyond 32"),
-    ("a number that grows", ode("der(x) = a*x + b*(▸" + "*".join(["1e400"] * 10) + "*u)"), "more than 1000 digits"),
+    ("a number that grows", ode("der(x) = a*x + b*(▸" + "*".join(["1e30"] * 4) + "*u)"), "beyond 1e100"),
+    ("a number that shrinks", ode("der(x) = a*x + b*(▸1e-60/1e60*u)"), "closer to 0 than 1e-100"),
+    ("a huge number", ode("der(x) = a*x + b*▸1e101*u"), "beyond 1e100"),
+    ("a fraction that grows", ode("der(x) = a*x + b*u*(▸" + " + ".join(f"1/{k}" for k in range(10 ** 18 + 1, 10 ** 18 + 300, 2)) + ")"), "thousands of digits"),
     ("division by zero", ode("der(x) = a*x + b*u/▸0"), "division by zero"),
     ("division by a difference of numbers", ode("der(x) = a*x + b*u/▸(c - 2)"), "division by zero"),
     ("zero to the power of zero", ode("der(x) = a*x + b*u*▸0^0"), "0 to a power"),
@@ -405,7 +439,7 @@ FORMULAS = [
     ("root of a negative number", ode("der(x) = a*x + b*u*▸sqrt(1 - c)"), "not a real number"),
     ("logarithm of zero", ode("der(x) = a*x + b*u*▸log(c - 2)"), "not a real number"),
     ("negative number to a fraction", ode("der(x) = a*x + b*u*▸(-8)^(1/3)"), "not whole"),
-    ("exponential beyond all numbers", ode("der(x) = a*x + b*u*▸exp(1e300)"), "not a real number"),
+    ("exponential beyond all numbers", ode("der(x) = a*x + b*u*▸exp(2000)"), "not a real number"),
     ("a thousand minus signs", ode("der(x) = " + "-" * 101 + "▸" + "-" * 899 + "a*x + b*u"), "nested deeper than 100"),
     ("a thousand parentheses", ode("der(x) = " + "(" * 101 + "▸" + "(" * 899 + "a" + ")" * 1000 + "*x + b*u"), "nested deeper than 100"),
     ("a million parentheses", ode("▸" + "(" * 1_000_000), "1000000 characters"),
@@ -549,9 +583,13 @@ class Malformed(ModelCase):
                 self.assertEqual(self.entries(), [name])
 
     def test_what_they_are_made_from_is_sound(self):
-        for text in (COIL, PLAIN, TRANSFER, SEVERAL_INPUTS):
+        motor = MOTOR.replace(MARK, "")
+        for text in (COIL, PLAIN, TRANSFER, SEVERAL_INPUTS, changed(motor, "robust", "square"),
+                     changed(motor, "- K*w\"", "- K*w\"\nscale = 3", "- b*w\"", "- b*w\"\nscale = 0.1"),
+                     changed(motor, 'unit = "A"', 'unit = "A", noise = 0.1', 'unit = "rad/s"', 'unit = "rad/s", noise = 0.1')):
             self.write(text.encode())
             self.assertEqual(self.run_algest("check", "m.toml")[:2], (0, "m.toml: ok\n"))
+            self.assertEqual(self.run_algest("derive", "m.toml")[0], 0)
 
     def test_there_are_enough_and_each_is_another(self):
         texts = [text for cases in CASES.values() for _, text, _ in cases]

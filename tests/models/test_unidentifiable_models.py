@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sound models whose parameters no data can tell apart: exit 1, the parameters named, nothing written. The mark ▸ stands where
+the complaint belongs."""
+import unittest
+
+from model_case import ModelCase, complaints, without_marks
+
+HEAD = """\
+name = "m"
+[sampling]
+period = 0.001
+window = 0.02
+[signals]
+x = {}
+y = {}
+u = {}
+"""
+
+
+def model(parameters, *equations):
+    """Parameters as TOML lines, equations as their TOML lines."""
+    return HEAD + "[parameters]\n" + "\n".join(parameters) + "\n" + "".join("[[equation]]\n" + equation + "\n" for equation in equations)
+
+
+# name, text, for each mark the words that its complaint must hold
+CASES = [
+    ("offset under kappa = 1", model(["a = {}", "▸offset = {}"], 'ode = "der(x) = a*u + offset"\nkappa = 1'), [["'offset'", "kappa >= 1 erases"]]),
+    ("offset times a constant under kappa = 2", model(["a = {}", "▸offset = {}"], 'ode = "der(x) = a*u + 3*sqrt(2)*offset"\nkappa = 2'), [["'offset'"]]),
+    ("parameter in no equation", model(["a = {}", "▸spare = {}"], 'ode = "der(x) = a*u"'), [["'spare'", "stands in no equation"]]),
+    ("parameter that cancels", model(["a = {}", "▸b = {}"], 'ode = "der(x) = a*u + b*x - x*b"'), [["'b'"]]),
+    ("parameter times zero", model(["a = {}", "▸b = {}"], 'ode = "der(x) = a*u + 0*b*x"'), [["'b'"]]),
+    ("two parameters in no equation", model(["▸b = {}", "a = {}", "▸c = {}"], 'ode = "der(x) = a*u"'), [["'b'"], ["'c'"]]),
+    ("a sum of two", model(["a = {}", "b = {}"], 'ode = ▸"der(x) = (a + b)*u"'), [["a, b", "a + b"]]),
+    ("a sum of two beside a third", model(["a = {}", "b = {}", "c = {}"], 'ode = ▸"der(x) = a*u + b*u + c*x"'), [["a, b, c", "a + b"]]),
+    ("a product of two", model(["a = {}", "b = {}"], 'ode = ▸"der(x) = a*b*u"'), [["a, b", "a*b"]]),
+    ("a quotient of two", model(["a = {}", "b = {}"], 'ode = ▸"a*der(x) = b*u"'), [["a, b", "b/a"]]),
+    ("all terms share a factor", model(["J = {}", "b = {}", "k = {}"], 'ode = ▸"J*der(x) = b*u + k*y"'), [["J, b, k", "b/J", "k/J"]]),
+    ("two equations, one product", model(["a = {}", "b = {}"], 'ode = ▸"der(x) = a*b*u"', 'ode = "der(y) = 2*a*b*u"'), [["a, b", "a*b"]]),
+    ("the second of two equations", model(["a = {}", "b = {}", "c = {}"], 'ode = "der(x) = a*u"', 'ode = ▸"der(y) = b*c*u"'), [["b, c", "b*c"]]),
+    ("parameter that the transfer equation does not name",
+     HEAD + "[parameters]\n▸spare = {}\n[transfer]\nn = 1\nunknowns = [\"a0\", \"b0\"]\n", [["'spare'"]]),
+]
+
+
+class Unidentifiable(ModelCase):
+    def test_each_is_answered_with_no(self):
+        for name, text, words in CASES:
+            content, places = without_marks(text)
+            self.write(content)
+            for command in (("check", "m.toml"), ("derive", "m.toml"), ("generate", "m.toml", "-o", "out")):
+                with self.subTest(name, command=command[0]):
+                    code, out, err, seconds = self.run_algest(*command)
+                    self.assertEqual(code, 1, out + err)
+                    self.assertEqual(complaints(err), [])
+                    found = complaints(err, "not identifiable")
+                    self.assertEqual([place[:2] for place in found], places, err)
+                    for (_, _, text_found), wanted in zip(found, words):
+                        for word in wanted:
+                            self.assertIn(word, text_found)
+                    self.assertEqual(out, "")
+                    self.assertLess(seconds, 1.0)
+                    self.assertEqual(self.entries(), ["m.toml"])
+
+    def test_bad_input_outweighs_it(self):
+        content, _ = without_marks(model(["a = {}", "spare = {}"], 'ode = "der(x) = sin(a)*u"'))
+        self.write(content)
+        self.assertEqual(self.run_algest("check", "m.toml")[0], 2)
+
+    def test_check_answers_with_the_worst_of_several(self):
+        self.write(model(["a = {}"], 'ode = "der(x) = a*u"').encode(), "good.toml")
+        self.write(model(["a = {}", "spare = {}"], 'ode = "der(x) = a*u"').encode(), "no.toml")
+        self.write(b"nonsense", "bad.toml")
+        for models, wanted in ((("good.toml",), 0), (("no.toml", "good.toml"), 1), (("bad.toml", "no.toml", "good.toml"), 2)):
+            self.assertEqual(self.run_algest("check", *models)[0], wanted)
+
+
+if __name__ == "__main__":
+    unittest.main()
