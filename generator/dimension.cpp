@@ -5,6 +5,7 @@
 
 #include "generator/constant_value.hpp"
 #include "generator/model.hpp"
+#include "generator/source_text.hpp"
 
 namespace algest::model {
 
@@ -32,16 +33,18 @@ struct Walk {
     Unit alike(const Unit& a, const Unit& b, const Formula& left, const Formula& right, const Formula& at) const {
         if (!a.known()) return b;
         if (!b.known()) return a;
-        const std::string sides = "'" + formula::text(left) + "' [" + a.text() + "] and '" + formula::text(right) + "' [" + b.text() + "]";
+        const auto sides = [&] {
+            return quoted(formula::text(left)) + " [" + a.text() + "] and " + quoted(formula::text(right)) + " [" + b.text() + "]";
+        };
         if (!a.same_dimension(b)) {
-            complain(at, sides + " differ in dimension", "check the units, or declare a constant with the missing one");
+            complain(at, sides() + " differ in dimension", "check the units, or declare a constant with the missing one");
             return {};
         }
         const double factor = b.factor_to(a);
         if (std::abs(factor - 1.0) > 1e-9) {
-            complain(at, sides + " differ in scale", "declare every quantity of the equation in units without prefixes, such as H for mH; a recording is converted");
+            complain(at, sides() + " differ in scale", "declare every quantity of the equation in units without prefixes, such as H for mH; a recording is converted");
         } else if (!b.same_origin(a)) {
-            complain(at, sides + " differ in their zero", "declare both in degC or both in K; a recording is converted");
+            complain(at, sides() + " differ in their zero", "declare both in degC or both in K; a recording is converted");
         }
         return a;
     }
@@ -94,7 +97,9 @@ struct Walk {
             case Kind::add:
             case Kind::subtract: {
                 const Unit left = of(f->arguments[0]);
-                return alike(left, of(f->arguments[1]), f->arguments[0], f->arguments[1], f->arguments[1]);
+                const Unit out = alike(left, of(f->arguments[1]), f->arguments[0], f->arguments[1], f->arguments[1]);
+                // A difference of two temperatures in degC is one in K: a product has no origin.
+                return f->kind == Kind::subtract ? out.times(Unit::dimensionless()) : out;
             }
             case Kind::multiply: {
                 const Unit left = of(f->arguments[0]);

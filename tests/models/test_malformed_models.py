@@ -84,6 +84,20 @@ unknowns = ["c0"]
 """
 
 
+HEAT = """\
+name = "m"
+[sampling]
+period = 1
+window = 20
+[signals]
+T = { unit = "degC" }
+room = { unit = "K" }
+[parameters]
+rate = { unit = "1/s" }
+[[equation]]
+ode = "der(T)/rate = -(T - room)"
+"""
+
 # Two equations of different units that share a parameter.
 MOTOR = """\
 name = "m"
@@ -507,6 +521,8 @@ MATHEMATICS = [
     ("sine of degrees", coil('i = { unit = "A" }', 'i = { unit = "degree" }', "gain*v - R*i", "gain*v*sin(▸i) - ▸R*i", '"ohm"', '"V/degree"', '"H"', '"V.s/degree"').replace("- ▸R", "- R"), "the argument of sin"),
     ("smaller of volts and amperes", coil_ode("L*der(i) = ▸min(v, i) - R*i"), "differ in dimension"),
     ("volts to the power of a signal", coil_ode("L*der(i) = gain*v - R*i + ▸v^▸i"), "an exponent has the unit"),
+    ("degrees Celsius and kelvins", HEAT.replace("T - ", "T - ▸"), "differ in their zero"),
+    ("a long sum", coil_ode("L*der(i) = " + "gain*v + " * 300 + "▸i - R*i"), "differ in dimension"),
     ("unit of another parameter", coil('"H"', '"F"', "gain*v", "▸gain*v"), "differ in dimension"),
 ]
 
@@ -584,7 +600,7 @@ class Malformed(ModelCase):
 
     def test_what_they_are_made_from_is_sound(self):
         motor = MOTOR.replace(MARK, "")
-        for text in (COIL, PLAIN, TRANSFER, SEVERAL_INPUTS, changed(motor, "robust", "square"),
+        for text in (COIL, PLAIN, TRANSFER, SEVERAL_INPUTS, HEAT.replace('"K"', '"degC"'), HEAT.replace('"degC"', '"K"'), changed(motor, "robust", "square"),
                      changed(motor, "- K*w\"", "- K*w\"\nscale = 3", "- b*w\"", "- b*w\"\nscale = 0.1"),
                      changed(motor, 'unit = "A"', 'unit = "A", noise = 0.1', 'unit = "rad/s"', 'unit = "rad/s", noise = 0.1')):
             self.write(text.encode())
