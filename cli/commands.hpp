@@ -60,4 +60,16 @@ struct SimulateOptions {
 /// Runs the model freely over the inputs of the recording and says how far it is from what was measured. 1: the run diverged.
 int simulate(const SimulateOptions& options);
 
+struct DiscoverOptions {
+    std::string model;
+    std::string recording;
+    std::string directory;       ///< for the amended model, its patch and the free runs before and after
+    std::string train;           ///< "A:B" in s; empty: the first 70 percent
+    std::string test;            ///< "C:D" in s; empty: the rest
+    bool apply = false;          ///< write the amended text over the model file
+    bool json = false;
+};
+/// Finds where model and recording disagree and names the missing effect.
+int discover(const DiscoverOptions& options);
+
 }  // namespace algest::cli

@@ -103,6 +103,28 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
     return command;
 }
 
+CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
+    CLI::App* command = app.add_subcommand("discover", "Finds what a model misses, names it and writes it into the model");
+    command->add_option("MODEL", options.model, "model file")->required();
+    command->add_option("RECORDING", options.recording, "CSV file with a header `name [unit]` and a column `t [s]`")
+        ->required();
+    command->add_option("-o,--output", options.directory, "folder for the amended model, its patch, before.csv and after.csv")
+        ->type_name("DIR")
+        ->required();
+    command->add_option("--train", options.train, "seconds to fit and choose on; default: the first 70 percent")->type_name("A:B");
+    command->add_option("--test", options.test, "seconds to score on, once; default: the rest")->type_name("C:D");
+    command->add_flag("--apply", options.apply, "write what was named into the model file itself");
+    command->add_flag("--json", options.json, json_text);
+    command->footer(
+        "Verdicts: named; ambiguous (the data allow several); none (the model explains the data); unknown (a gap, and no known\n"
+        "effect explains it). Effects are read from models/effects, and from a folder `effects` beside the model.\n"
+        "Exit code: 0 done, 2 a model or a file is at fault.\n\n"
+        "Examples:\n"
+        "  algest discover motor.toml run.csv -o found\n"
+        "  algest discover motor.toml run.csv -o found --train 0:7 --test 7:10 --json");
+    return command;
+}
+
 /// What goes wrong outside any command: one line for people, the usual object for programs.
 int complain(const std::string& what, const std::string& right, bool json) {
     algest::Diagnostics diagnostics;
@@ -120,11 +142,13 @@ int parse_and_run(int argc, char** argv, bool json) {
     GenerateOptions generate_options;
     ReplayOptions replay_options;
     SimulateOptions simulate_options;
+    DiscoverOptions discover_options;
     const CLI::App* check_command = add_check(app, check_options);
     const CLI::App* derive_command = add_derive(app, derive_options);
     const CLI::App* generate_command = add_generate(app, generate_options);
     const CLI::App* replay_command = add_replay(app, replay_options);
     const CLI::App* simulate_command = add_simulate(app, simulate_options);
+    const CLI::App* discover_command = add_discover(app, discover_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -137,6 +161,7 @@ int parse_and_run(int argc, char** argv, bool json) {
     if (generate_command->parsed()) return generate(generate_options);
     if (replay_command->parsed()) return replay(replay_options);
     if (simulate_command->parsed()) return simulate(simulate_options);
+    if (discover_command->parsed()) return discover(discover_options);
     return exit_bad_input;
 }
 

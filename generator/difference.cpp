@@ -20,16 +20,6 @@ std::vector<std::string> lines_of(const std::string& text) {
     return out;
 }
 
-std::string unified(const std::string& path, const std::string& before, const std::string& after) {
-    dtl::Diff<std::string> diff(lines_of(before), lines_of(after));
-    diff.compose();
-    diff.composeUnifiedHunks();
-    std::ostringstream out;
-    out << "--- " << path << " (on disk)\n+++ " << path << " (generated)\n";
-    diff.printUnifiedFormat(out);
-    return out.str();
-}
-
 /// The numbers of a line of weights; empty if it is anything else.
 std::vector<double> weights_of(const std::string& line) {
     std::vector<double> out;
@@ -88,11 +78,22 @@ std::string table_summary(const std::string& path, const std::string& before, co
 
 }  // namespace
 
+std::string unified_diff(const std::string& before_name, const std::string& before, const std::string& after_name, const std::string& after) {
+    if (before == after) return {};
+    dtl::Diff<std::string> diff(lines_of(before), lines_of(after));
+    diff.compose();
+    diff.composeUnifiedHunks();
+    std::ostringstream out;
+    out << "--- " << before_name << "\n+++ " << after_name << "\n";
+    diff.printUnifiedFormat(out);
+    return out.str();
+}
+
 std::string difference(const EmittedFile& wanted, const std::optional<std::string>& present) {
     if (!present) return wanted.path + ": not there yet\n";
     if (*present == wanted.text) return {};
     if (wanted.path.ends_with("_tables.hpp")) return table_summary(wanted.path, *present, wanted.text);
-    return unified(wanted.path, *present, wanted.text);
+    return unified_diff(wanted.path + " (on disk)", *present, wanted.path + " (generated)", wanted.text);
 }
 
 }  // namespace algest::generator

@@ -38,6 +38,9 @@ struct EmittedFile {
 /// NAME/NAME.hpp, NAME/NAME_tables.hpp, NAME/NAME.md. Throws std::logic_error if a template asks for a name it is not given.
 std::vector<EmittedFile> emit(const plan::Plan& plan);
 
+/// Unified diff of two texts, under the two names; `patch` applies it. Empty: no difference.
+std::string unified_diff(const std::string& before_name, const std::string& before, const std::string& after_name, const std::string& after);
+
 /// What differs between a file as it should be and as it is on disk (nullopt: missing): unified diff for code and
 /// derivation; for tables a summary (rows changed, largest change in units in the last place). Empty: no difference.
 std::string difference(const EmittedFile& wanted, const std::optional<std::string>& present);

@@ -724,26 +724,29 @@ int Model::parameter_index(const std::string& wanted) const {
 
 std::optional<Model> read(const std::string& path, bool strict, Diagnostics& diagnostics) {
     const auto text = read_text(path, largest_file, diagnostics);
-    if (!text) return std::nullopt;
-    if (const auto at = not_utf8(*text)) {
+    return text ? read_from_text(*text, path, strict, diagnostics) : std::nullopt;
+}
+
+std::optional<Model> read_from_text(const std::string& text, const std::string& path, bool strict, Diagnostics& diagnostics) {
+    if (const auto at = not_utf8(text)) {
         diagnostics.error(path, *at, "not UTF-8", "save the file as UTF-8");
         return std::nullopt;
     }
-    if (const auto at = too_long_key(*text, longest_key)) {
+    if (const auto at = too_long_key(text, longest_key)) {
         diagnostics.error(path, *at, "a key of more than " + std::to_string(longest_key) + " parts", "a model needs no such key");
         return std::nullopt;
     }
     try {
-        const toml::table root = toml::parse(std::string_view(*text), path);
-        Reader reader(path, *text, strict, diagnostics);
+        const toml::table root = toml::parse(std::string_view(text), path);
+        Reader reader(path, text, strict, diagnostics);
         reader.read(root);
         if (diagnostics.has_errors()) return std::nullopt;
         return reader.take();
     } catch (const TooMany&) {
         return std::nullopt;
     } catch (const toml::parse_error& e) {
-        const Position at = within_line(*text, position(e.source()));
-        diagnostics.error(path, at, toml_complaint(e, *text, at), "see the model file format in docs");
+        const Position at = within_line(text, position(e.source()));
+        diagnostics.error(path, at, toml_complaint(e, text, at), "see the model file format in docs");
         return std::nullopt;
     }
 }

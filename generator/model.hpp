@@ -123,5 +123,7 @@ constexpr int most_intervals = 1000000;
 /// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.
 /// With strict, a missing unit is an error instead of a warning.
 std::optional<Model> read(const std::string& path, bool strict, Diagnostics& diagnostics);
+/// The same for the text of a file; `path` is what complaints name.
+std::optional<Model> read_from_text(const std::string& text, const std::string& path, bool strict, Diagnostics& diagnostics);
 
 }  // namespace algest::model

@@ -37,7 +37,7 @@ public:
         FreeRun out{std::vector<std::vector<double>>(drive_.values.size()), 0};
         State x = initial;
         step_ = drive_.period;
-        for (std::size_t k = 0; k < drive_.samples; ++k) {
+        for (std::size_t k = options_.first; k < drive_.samples; ++k) {
             sample_ = k;
             set_state(x);
             set_driven(0.0);

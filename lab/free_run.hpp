@@ -12,12 +12,12 @@ namespace algest::lab {
 /// What drives a run: samples at a uniform period.
 struct Drive {
     double period;                                ///< s
-    std::size_t samples;
+    std::size_t samples;                          ///< the run ends there
     std::vector<std::vector<double>> values;      ///< by the model's signals; empty for those that are not driven
     std::vector<bool> held;                       ///< by signal: constant between samples, else linear
 };
 
-/// Every moving and every fed-back signal at every sample, by the model's signals; empty for the others.
+/// Every moving and every fed-back signal at every sample from the first on, by the model's signals; empty for the others.
 struct FreeRun {
     std::vector<std::vector<double>> signals;
     std::size_t samples;                          ///< computed; fewer than asked for where the run diverged
@@ -26,6 +26,7 @@ struct FreeRun {
 struct RunOptions {
     double tolerance = 1e-8;                      ///< local, relative to the scale of each state
     std::vector<double> scale;                    ///< by state entry: typical size; a run beyond 1e6 times it has diverged
+    std::size_t first = 0;                        ///< sample at which the run starts
 };
 
 /// Integrates from `initial` (one value per state entry) with a Dormand-Prince step of controlled size inside each period, inputs as

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// algest discover: where model and recording disagree, the name of what is missing, the amended model.
+#include "lab/discover.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "cli/messages.hpp"
+#include "cli/progress.hpp"
+#include "generator/generate.hpp"
+#include "generator/source_text.hpp"
+#include "lab/write_file.hpp"
+
+namespace algest::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// "A:B" as two finite numbers, A < B; nullopt and an error for anything else.
+std::optional<std::pair<double, double>> stretch(const std::string& option, const std::string& text, Diagnostics& diagnostics) {
+    double from = 0;
+    double to = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, from);
+    if (first.ec == std::errc() && first.ptr != end && *first.ptr == ':') {
+        const auto second = std::from_chars(first.ptr + 1, end, to);
+        if (second.ec == std::errc() && second.ptr == end && std::isfinite(from) && std::isfinite(to) && from < to) return std::pair(from, to);
+    }
+    diagnostics.error("algest discover", {}, option + " " + text + " is not A:B in seconds with A before B", "e.g. " + option + " 0:7");
+    return std::nullopt;
+}
+
+/// The library beside the program (a build tree or an installation), and a folder beside the model.
+std::vector<std::string> effect_folders(const std::string& model) {
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    const std::filesystem::path beside = std::filesystem::absolute(model, error).parent_path() / "effects";
+    return {(program / "../share/algest/models/effects").string(), (program / "../models/effects").string(), beside.string()};
+}
+
+ordered_json effect_json(const lab::NamedEffect& effect) {
+    ordered_json parameters = ordered_json::array();
+    for (const lab::NamedParameter& p : effect.parameters) {
+        parameters.push_back({{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"sd", std::isfinite(p.sd) ? ordered_json(p.sd) : ordered_json(nullptr)}});
+    }
+    return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", std::move(parameters)}};
+}
+
+ordered_json discovery_json(const lab::Discovery& d, const std::string& model_file, const std::string& patch_file) {
+    ordered_json out;
+    out["verdict"] = lab::name(d.verdict);
+    out["effects"] = ordered_json::array();
+    for (const auto& e : d.effects) out["effects"].push_back(effect_json(e));
+    out["alternatives"] = d.alternatives;
+    out["experiments"] = d.experiments;
+    out["where"] = ordered_json::array();
+    for (const auto& w : d.where) out["where"].push_back({{"equation", w.equation}, {"share", w.share}, {"from_s", w.from_s}, {"to_s", w.to_s}, {"region", w.region}});
+    out["outputs"] = ordered_json::array();
+    for (const auto& o : d.outputs) out["outputs"].push_back({{"signal", o.signal}, {"nrmse_before", o.before}, {"nrmse_after", o.after}, {"noise_floor", o.floor}});
+    out["model"] = model_file.empty() ? ordered_json(nullptr) : ordered_json(model_file);
+    out["patch"] = patch_file.empty() ? ordered_json(nullptr) : ordered_json(patch_file);
+    out["report"] = nullptr;
+    return out;
+}
+
+std::string discovery_text(const lab::Discovery& d) {
+    std::string out = fmt::format("verdict: {}\n", lab::name(d.verdict));
+    for (const auto& e : d.effects) {
+        out += fmt::format("  {} in {}: {}\n", e.name, e.equation, e.term);
+        for (const auto& p : e.parameters) out += fmt::format("    {} = {:.6g} +- {:.2g} {}\n", p.name, p.value, p.sd, p.unit);
+    }
+    for (const auto& a : d.alternatives) out += fmt::format("  the data allow: {}\n", fmt::join(a, ", "));
+    for (const auto& e : d.experiments) out += fmt::format("  to tell: {}\n", e);
+    out += "\nwhere the model was off (share of the gap)\n";
+    for (const auto& w : d.where) out += fmt::format("  {:5.1f} %  {}, {:.4g} s to {:.4g} s, {}\n", 100 * w.share, w.equation, w.from_s, w.to_s, w.region);
+    out += fmt::format("\n{:<12} {:>12} {:>12} {:>12}\n", "signal", "before [1]", "after [1]", "floor [1]");
+    for (const auto& o : d.outputs) out += fmt::format("{:<12} {:>12.4g} {:>12.4g} {:>12.4g}\n", o.signal, o.before, o.after, o.floor);
+    return out;
+}
+
+}  // namespace
+
+int discover(const DiscoverOptions& options) {
+    Diagnostics diagnostics;
+    lab::DiscoverOptions stretches;
+    if (!options.train.empty()) stretches.train_s = stretch("--train", options.train, diagnostics);
+    if (!options.test.empty()) stretches.test_s = stretch("--test", options.test, diagnostics);
+    if (diagnostics.has_errors()) return fail(diagnostics, options.json);
+    const auto text = model::read_text(options.model, 1024 * 1024, diagnostics);
+    const auto recording = lab::read_recording(options.recording, diagnostics);
+    const auto effects = lab::read_effects(effect_folders(options.model), diagnostics);
+    if (effects.empty() && !diagnostics.has_errors()) {
+        diagnostics.error("algest discover", {}, "no library of effects beside the program", "install algest, run build/algest, or put a folder `effects` beside the model");
+    }
+    if (!text || !recording || diagnostics.has_errors()) return fail(diagnostics, options.json);
+
+    const auto found = [&] {
+        ProgressLine progress("discover");
+        return lab::discover(*text, options.model, *recording, effects, stretches, diagnostics, [&](const std::string&, double share) { progress.show(share); });
+    }();
+    if (!found) return fail(diagnostics, options.json);
+    const auto model = model::read_from_text(*text, options.model, false, diagnostics);
+
+    const std::filesystem::path directory = options.directory;
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    const std::string stem = std::filesystem::path(options.model).stem().string();
+    const bool amended = found->model_text != *text;
+    const std::string model_file = amended ? (directory / (stem + ".toml")).string() : "";
+    const std::string patch_file = amended ? (directory / (stem + ".patch")).string() : "";
+    bool written = lab::write_file((directory / "before.csv").string(), lab::run_csv(*model, *recording, found->before), diagnostics) &&
+                   lab::write_file((directory / "after.csv").string(), lab::run_csv(*model, *recording, found->after), diagnostics);
+    if (written && amended) {
+        written = lab::write_file(patch_file, generator::unified_diff(options.model, *text, options.model, found->model_text), diagnostics) &&
+                  lab::write_file(model_file, found->model_text, diagnostics);
+        if (written && options.apply) written = lab::write_file(options.model, found->model_text, diagnostics);
+    }
+    if (!written) return fail(diagnostics, options.json);
+    print_diagnostics(diagnostics);
+    if (options.json) print_json(discovery_json(*found, model_file, patch_file));
+    else print(discovery_text(*found));
+    return exit_done;
+}
+
+}  // namespace algest::cli

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/amend.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace algest::lab {
+
+namespace {
+
+/// Byte offset of a position in a text.
+std::size_t offset_of(const std::string& text, Position at) {
+    std::size_t offset = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0;
+    for (int line = 1; line < at.line; ++line) offset = text.find('\n', offset) + 1;
+    for (int column = 1; column < at.column; ++column) {
+        ++offset;
+        while (offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0U) == 0x80U) ++offset;
+    }
+    return offset;
+}
+
+void replace_all(std::string& text, const std::string& what, const std::string& with) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) text.replace(at, what.size(), with);
+}
+
+/// Replaces a name where it stands as a whole word.
+void rename(std::string& term, const std::string& from, const std::string& to) {
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (std::size_t at = term.find(from); at != std::string::npos; at = term.find(from, at + 1)) {
+        const bool starts = at == 0 || !is_word(term[at - 1]);
+        const bool ends = at + from.size() == term.size() || !is_word(term[at + from.size()]);
+        if (!starts || !ends) continue;
+        term.replace(at, from.size(), to);
+        at += to.size() - 1;
+    }
+}
+
+bool taken(const std::string& name, const model::Model& model) {
+    const auto same = [&](const std::string& other) {
+        return other.size() == name.size() && std::equal(name.begin(), name.end(), other.begin(), [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+    };
+    return std::any_of(model.signals.begin(), model.signals.end(), [&](const auto& s) { return same(s.name); }) ||
+           std::any_of(model.constants.begin(), model.constants.end(), [&](const auto& c) { return same(c.name); }) ||
+           std::any_of(model.parameters.begin(), model.parameters.end(), [&](const auto& p) { return same(p.name); });
+}
+
+std::string fresh(const std::string& wanted, const model::Model& model) {
+    std::string name = wanted;
+    for (int k = 2; taken(name, model); ++k) name = wanted + std::to_string(k);
+    return name;
+}
+
+int highest_order(const formula::Formula& f) {
+    int order = 0;
+    if (f->kind == formula::Kind::call && f->name == "der") order = f->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(f->arguments[1]->value)) : 1;
+    for (const formula::Formula& a : f->arguments) order = std::max(order, highest_order(a));
+    return order;
+}
+
+std::string entry_text(const NewName& n, const std::string& because) {
+    std::string out = n.name + " = { " + (n.constant ? "value = " : "initial = ") + fmt::format("{:.6g}", n.value);
+    if (!n.unit.empty()) out += ", unit = \"" + n.unit + "\"";
+    if (n.not_negative) out += ", min = 0";
+    return out + " }   # " + because + "\n";
+}
+
+/// Behind the line on which the last of these names is declared, if those lines hold one entry each; npos: nowhere.
+template <class Names>
+std::size_t behind_last(const std::string& text, const Names& names) {
+    int line = 0;
+    for (const auto& n : names) line = std::max(line, n.at.line);
+    if (line == 0) return std::string::npos;
+    const std::size_t start = offset_of(text, {line, 1});
+    const std::size_t end = text.find('\n', start);
+    const std::string content = text.substr(start, end == std::string::npos ? std::string::npos : end - start);
+    if (content.find('[') < content.find('=') || content.find('}') == std::string::npos) return std::string::npos;   // a table of its own, or several lines
+    return end == std::string::npos ? text.size() : end + 1;
+}
+
+}  // namespace
+
+Amendment amendment(const Binding& binding, const model::Model& model, double scan) {
+    const Effect& effect = *binding.effect;
+    std::string term = effect.term;
+    Amendment out{effect.name, binding.equations, {}, {}, effect.summary};
+    const auto unit_text = [&](std::string unit) {
+        replace_all(unit, "{equation}", binding.unit);
+        for (const auto& [role, filler] : binding.role_units) replace_all(unit, "{" + role + "}", filler);
+        return unit;
+    };
+    for (const EffectParameter& p : effect.parameters) {
+        const std::string name = fresh(p.name, model);
+        rename(term, p.name, name);
+        out.names.push_back({name, unit_text(p.unit), 0.0, p.not_negative, false});
+    }
+    for (const EffectScan& s : effect.scans) {
+        const std::string name = fresh(s.name, model);
+        rename(term, s.name, name);
+        out.names.push_back({name, unit_text(s.unit), scan, false, true});
+    }
+    for (const auto& roles : binding.roles) {
+        out.terms.push_back(term);
+        for (const auto& [role, formula] : roles) replace_all(out.terms.back(), "{" + role + "}", formula);
+    }
+    return out;
+}
+
+std::string amended(const std::string& text, const model::Model& model, const Amendment& amendment) {
+    std::string out = text;
+    std::vector<std::pair<std::size_t, std::string>> insertions;
+    for (std::size_t k = 0; k < amendment.equations.size(); ++k) {
+        const model::Equation& equation = model.equations[amendment.equations[k]];
+        const bool leading_left = highest_order(equation.sides.left) >= highest_order(equation.sides.right);
+        const std::size_t place = leading_left ? equation.ode.size() : equation.ode.find('=');
+        std::string term = amendment.terms[k];
+        if (term[0] == '-' || term[0] == '+') term = term.substr(0, 1) + " " + term.substr(1);
+        else term = "+ " + term;
+        std::size_t at = offset_of(out, equation.place(static_cast<int>(place)));
+        while (at > 0 && out[at - 1] == ' ') --at;
+        insertions.emplace_back(at, " " + term);
+    }
+    // Later places first, so that earlier positions stay right.
+    const std::size_t parameters = behind_last(out, model.parameters);
+    const std::size_t constants = behind_last(out, model.constants);
+    std::string own_tables;
+    for (const NewName& n : amendment.names) {
+        const std::size_t where = n.constant ? constants : parameters;
+        if (where != std::string::npos) {
+            const bool needs_break = where == out.size() && !out.empty() && out.back() != '\n';
+            insertions.emplace_back(where, (needs_break ? "\n" : "") + entry_text(n, amendment.because));
+        } else {
+            own_tables += std::string("\n[") + (n.constant ? "constants" : "parameters") + "." + n.name + "]   # " + amendment.because + "\n" + (n.constant ? "value = " : "initial = ") + fmt::format("{:.6g}", n.value) + "\n";
+            if (!n.unit.empty()) own_tables += "unit = \"" + n.unit + "\"\n";
+            if (n.not_negative) own_tables += "min = 0\n";
+        }
+    }
+    std::stable_sort(insertions.begin(), insertions.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    // Entries for one place keep their order: insert the last first.
+    for (std::size_t k = 0; k < insertions.size();) {
+        std::size_t same = k;
+        std::string joined;
+        while (same < insertions.size() && insertions[same].first == insertions[k].first) joined += insertions[same++].second;
+        out.insert(insertions[k].first, joined);
+        k = same;
+    }
+    if (!own_tables.empty() && !out.empty() && out.back() != '\n') out += "\n";
+    return out + own_tables;
+}
+
+}  // namespace algest::lab

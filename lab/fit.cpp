@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/fit.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace algest::lab {
+
+namespace {
+
+constexpr double error_of_divergence = 1e3;   ///< sizes
+
+/// What the optimiser moves: scaled free parameters, then scaled initial values of measured states.
+struct Variables {
+    std::vector<std::size_t> parameters;
+    std::vector<std::size_t> entries;
+    std::vector<double> scale;   ///< of both in turn
+    std::size_t size() const { return parameters.size() + entries.size(); }
+};
+
+class FreeRunError : public ceres::CostFunction {
+public:
+    FreeRunError(const model::Model& model, const Bench& bench, const FitStart& start, Variables variables, const std::function<void()>& alive)
+        : model_(model), bench_(bench), start_(start), variables_(std::move(variables)), alive_(alive), outputs_(scored_outputs(model, bench)) {
+        drive_ = bench.drive;
+        drive_.samples = start.rows.end;
+        options_ = bench.options;
+        options_.first = start.rows.begin;
+        for (const int s : outputs_) sizes_.push_back(size_of(bench.measured[static_cast<std::size_t>(s)]));
+        set_num_residuals(static_cast<int>(outputs_.size() * start.rows.size()));
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(variables_.size()));
+    }
+
+    /// Residuals in units of size / sqrt(rows): their squares sum to the sum of nrmse^2.
+    void residuals(const double* x, double* out) const {
+        std::vector<double> parameters = start_.parameters;
+        std::vector<double> initial = start_.initial;
+        spread(x, parameters, initial);
+        const FreeRun run = free_run(bench_.system, parameters, initial, drive_, options_);
+        ++runs;
+        if (alive_) alive_();
+        const double scale = 1.0 / std::sqrt(static_cast<double>(start_.rows.size()));
+        std::size_t k = 0;
+        for (std::size_t o = 0; o < outputs_.size(); ++o) {
+            const std::size_t s = static_cast<std::size_t>(outputs_[o]);
+            for (std::size_t row = 0; row < start_.rows.size(); ++row, ++k) {
+                const double miss = row < run.samples ? (bench_.measured[s][start_.rows.begin + row] - run.signals[s][row]) / sizes_[o] : error_of_divergence;
+                out[k] = scale * std::clamp(miss, -error_of_divergence, error_of_divergence);
+            }
+        }
+    }
+
+    bool Evaluate(double const* const* x, double* out, double** jacobians) const override {
+        residuals(x[0], out);
+        if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+        const std::size_t columns = variables_.size();
+        const std::size_t rows = static_cast<std::size_t>(num_residuals());
+        std::vector<double> moved(x[0], x[0] + columns);
+        std::vector<double> ahead(rows);
+        for (std::size_t c = 0; c < columns; ++c) {
+            const double step = 1e-5 * std::max(std::abs(x[0][c]), 1e-2);
+            moved[c] = x[0][c] + step;
+            residuals(moved.data(), ahead.data());
+            moved[c] = x[0][c];
+            for (std::size_t r = 0; r < rows; ++r) jacobians[0][r * columns + c] = (ahead[r] - out[r]) / step;
+        }
+        return true;
+    }
+
+    void spread(const double* x, std::vector<double>& parameters, std::vector<double>& initial) const {
+        std::size_t k = 0;
+        for (const std::size_t p : variables_.parameters) { parameters[p] = x[k] * variables_.scale[k]; ++k; }
+        for (const std::size_t e : variables_.entries) { initial[e] = x[k] * variables_.scale[k]; ++k; }
+    }
+
+    const std::vector<int>& outputs() const { return outputs_; }
+    const std::vector<double>& sizes() const { return sizes_; }
+    mutable int runs = 0;
+
+private:
+    const model::Model& model_;
+    const Bench& bench_;
+    const FitStart& start_;
+    Variables variables_;
+    const std::function<void()>& alive_;
+    std::vector<int> outputs_;
+    std::vector<double> sizes_;
+    Drive drive_;
+    RunOptions options_;
+};
+
+Variables choose_variables(const model::Model& model, const Bench& bench, const FitStart& start) {
+    Variables out;
+    for (std::size_t p = 0; p < model.parameters.size(); ++p) {
+        if (!start.fixed.empty() && start.fixed[p]) continue;
+        out.parameters.push_back(p);
+        const double range = model.parameters[p].max ? 1e-3 * exact::nearest(cln::abs(*model.parameters[p].max), plan::Scalar::float64) : 1e-3;
+        out.scale.push_back(start.parameters[p] != 0 ? std::abs(start.parameters[p]) : range);
+    }
+    for (std::size_t e = 0; e < bench.system.states.size(); ++e) {
+        if (bench.measured[static_cast<std::size_t>(bench.system.states[e].signal)].empty()) continue;
+        out.entries.push_back(e);
+        out.scale.push_back(bench.options.scale[e]);
+    }
+    return out;
+}
+
+/// Sum of the autocorrelation of a residual up to its first zero, both sides: how many samples count as one.
+double samples_that_count_as_one(const double* r, std::size_t count) {
+    double power = 0;
+    for (std::size_t k = 0; k < count; ++k) power += r[k] * r[k];
+    if (!(power > 0)) return 1;
+    double sum = 1;
+    const std::size_t longest = std::min<std::size_t>(count / 4, 4000);
+    for (std::size_t lag = 1; lag < longest; ++lag) {
+        double product = 0;
+        for (std::size_t k = lag; k < count; ++k) product += r[k] * r[k - lag];
+        if (product <= 0) break;
+        sum += 2 * product / power;
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<int> scored_outputs(const model::Model& model, const Bench& bench) {
+    std::vector<int> out;
+    for (const int s : bench.system.moving) {
+        if (!bench.measured[static_cast<std::size_t>(s)].empty() && model.signals[static_cast<std::size_t>(s)].scored) out.push_back(s);
+    }
+    return out;
+}
+
+Fit fit(const model::Model& model, const Bench& bench, const FitStart& start, const std::function<void()>& alive) {
+    const Variables variables = choose_variables(model, bench, start);
+    std::vector<double> x;
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+        const double value = k < variables.parameters.size() ? start.parameters[variables.parameters[k]] : start.initial[variables.entries[k - variables.parameters.size()]];
+        x.push_back(value / variables.scale[k]);
+    }
+    auto* cost = new FreeRunError(model, bench, start, variables, alive);   // the problem owns it
+    ceres::Problem problem;
+    problem.AddResidualBlock(cost, nullptr, x.data());
+    for (std::size_t k = 0; k < variables.parameters.size(); ++k) {
+        const model::Parameter& p = model.parameters[variables.parameters[k]];
+        if (p.min) problem.SetParameterLowerBound(x.data(), static_cast<int>(k), exact::nearest(*p.min, plan::Scalar::float64) / variables.scale[k]);
+        if (p.max) problem.SetParameterUpperBound(x.data(), static_cast<int>(k), exact::nearest(*p.max, plan::Scalar::float64) / variables.scale[k]);
+    }
+    ceres::Solver::Options options;
+    options.max_num_iterations = start.most_iterations;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.logging_type = ceres::SILENT;
+    options.function_tolerance = 1e-7;
+    options.parameter_tolerance = 1e-7;
+    options.num_threads = 1;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+
+    Fit out{start.parameters, std::vector<double>(start.parameters.size(), std::numeric_limits<double>::infinity()), start.initial, 0, {}, summary.termination_type == ceres::CONVERGENCE, 0};
+    cost->spread(x.data(), out.parameters, out.initial);
+    const std::size_t count = static_cast<std::size_t>(cost->num_residuals());
+    std::vector<double> residuals(count);
+    std::vector<double> jacobian(count * variables.size());
+    const double* block = x.data();
+    double* columns = jacobian.data();
+    cost->Evaluate(&block, residuals.data(), &columns);
+    // Each output has its own noise: rows are divided by it before the normal equations.
+    const std::size_t rows = start.rows.size();
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(variables.size()), static_cast<Eigen::Index>(variables.size()));
+    for (std::size_t o = 0; o < cost->outputs().size(); ++o) {
+        const double* r = residuals.data() + o * rows;
+        double squares = 0;
+        for (std::size_t k = 0; k < rows; ++k) squares += r[k] * r[k];
+        out.cost += squares / static_cast<double>(cost->outputs().size());
+        out.noise.push_back(std::sqrt(squares) * cost->sizes()[o]);
+        const double variance = squares / static_cast<double>(rows) * samples_that_count_as_one(r, rows);
+        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> part(jacobian.data() + o * rows * variables.size(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(variables.size()));
+        if (variance > 0) normal += part.transpose() * part / variance;
+    }
+    const Eigen::MatrixXd covariance = normal.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::VectorXd seen = (normal * covariance).diagonal();
+    for (std::size_t k = 0; k < variables.parameters.size(); ++k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        if (seen[i] > 0.999) out.sd[variables.parameters[k]] = std::sqrt(std::max(covariance(i, i), 0.0)) * variables.scale[k];
+    }
+    out.runs = cost->runs;
+    return out;
+}
+
+}  // namespace algest::lab

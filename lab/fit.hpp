@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parameters from the free run's output error: a bounded Levenberg-Marquardt (Ceres) over parameters and initial values.
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "lab/simulate.hpp"
+
+namespace algest::lab {
+
+/// Rows [begin, end) of a recording.
+struct Rows {
+    std::size_t begin;
+    std::size_t end;
+    std::size_t size() const { return end - begin; }
+};
+
+/// What a fit starts from and looks at.
+struct FitStart {
+    std::vector<double> parameters;   ///< by the model's parameters
+    std::vector<bool> fixed;          ///< by parameter; empty: none
+    std::vector<double> initial;      ///< by state entry
+    Rows rows;                        ///< scored; the run starts at rows.begin
+    int most_iterations = 25;
+};
+
+/// What came of it.
+struct Fit {
+    std::vector<double> parameters;
+    std::vector<double> sd;           ///< by parameter, its unit; infinite where the data do not see it
+    std::vector<double> initial;      ///< by state entry, at rows.begin
+    double cost;                      ///< mean over outputs of nrmse^2 over the rows
+    std::vector<double> noise;        ///< by output: rms of the error, in the output's unit
+    bool converged;
+    int runs;                         ///< free runs it took
+};
+
+/// The moving signals that a fit compares: measured and scored, in the order of the system.
+std::vector<int> scored_outputs(const model::Model& model, const Bench& bench);
+
+/// Minimises the sum over outputs of the squared error over (size of the measured signal)^2. Parameters stay within the model's
+/// min and max. A run that diverges counts as an error of 1e3 sizes from there on.
+/// Standard deviations are those of the linearised fit, enlarged by the autocorrelation of the residuals.
+/// Cost: (free parameters + measured state entries + 1) runs an iteration.
+Fit fit(const model::Model& model, const Bench& bench, const FitStart& start, const std::function<void()>& alive = {});
+
+}  // namespace algest::lab

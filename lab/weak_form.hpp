@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One equation in its weak form on a recording: a row per window, a column per term, by the annihilator's kernels.
+#pragma once
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "generator/equation.hpp"
+#include "lab/fit.hpp"
+
+namespace algest::lab {
+
+/// Rows of  sum coefficient_k(theta) K[product_k] = 0  (p = 1), one every half window.
+struct WeakForm {
+    Eigen::MatrixXd columns;                  ///< windows x terms, T^-order included
+    std::vector<Polynomial> coefficients;     ///< by term, in the model's parameters
+    std::vector<bool> used;                   ///< by parameter of the model: it stands in this equation
+    std::vector<bool> leading;                ///< by parameter: it stands in the leading coefficient
+    bool driven;                              ///< some term has a known coefficient
+    std::vector<std::size_t> centre;          ///< by window: the sample in its middle
+};
+
+/// Nullopt where a signal of the equation is not measured, or the rows are fewer than two windows. intervals: of a window.
+std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals);
+
+/// Least squares of the rows over the parameters of the equation, from `start` on (one Gauss-Newton step is exact where the equation is
+/// linear). Parameters of the leading coefficient are held where no term is known.
+struct WeakFit {
+    std::vector<double> parameters;
+    double residual;                          ///< sum of squares
+    int windows;
+    int unknowns;
+};
+WeakFit weak_fit(const WeakForm& form, const std::vector<double>& start);
+
+/// Residual of every window.
+Eigen::VectorXd weak_residual(const WeakForm& form, const std::vector<double>& parameters);
+
+}  // namespace algest::lab
