@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The estimators of generated/, all behind one interface: samples and answers as arrays.
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "generated/dc_motor/dc_motor.hpp"
+#include "generated/magnetic_bearing/magnetic_bearing.hpp"
+#include "generated/pendulum/pendulum.hpp"
+#include "generated/pmsm_electrical/pmsm_electrical.hpp"
+#include "generated/positioning_axis/positioning_axis.hpp"
+#include "generated/rl_circuit/rl_circuit.hpp"
+
+#define ALGEST_COMMITTED                                                                         \
+    algest::generated::DcMotor, algest::generated::MagneticBearing, algest::generated::Pendulum, \
+        algest::generated::PmsmElectrical, algest::generated::PositioningAxis, algest::generated::RlCircuit
+
+namespace algest::test {
+
+/// The name of the model: that of the files in models/ and generated/.
+template <class Class>
+constexpr const char* model = nullptr;
+template <>
+inline constexpr const char* model<generated::DcMotor> = "dc_motor";
+template <>
+inline constexpr const char* model<generated::MagneticBearing> = "magnetic_bearing";
+template <>
+inline constexpr const char* model<generated::Pendulum> = "pendulum";
+template <>
+inline constexpr const char* model<generated::PmsmElectrical> = "pmsm_electrical";
+template <>
+inline constexpr const char* model<generated::PositioningAxis> = "positioning_axis";
+template <>
+inline constexpr const char* model<generated::RlCircuit> = "rl_circuit";
+
+/// Sample is an array of inputs, Estimate a status, a condition and the parameters: the generated structs promise no more.
+template <class Class>
+constexpr std::size_t inputs = sizeof(typename Class::Sample) / sizeof(typename Class::Scalar);
+template <class Class>
+constexpr std::size_t parameters = sizeof(typename Class::Estimate) / sizeof(typename Class::Scalar) - 2;
+
+template <class Class>
+using Inputs = std::array<typename Class::Scalar, inputs<Class>>;
+
+template <class Class>
+typename Class::Sample sample(const Inputs<Class>& values) {
+    typename Class::Sample out;
+    static_assert(sizeof out == sizeof values);
+    std::memcpy(&out, values.data(), sizeof out);
+    return out;
+}
+
+template <class Class>
+struct Answer {
+    Status status;
+    typename Class::Scalar condition;
+    std::array<typename Class::Scalar, parameters<Class>> values;
+
+    explicit Answer(const typename Class::Estimate& e) : status(e.status), condition(e.condition) {
+        std::memcpy(values.data(), reinterpret_cast<const char*>(&e) + 2 * sizeof condition, sizeof values);
+    }
+    bool same_bits(const Answer& o) const {
+        return status == o.status && std::memcmp(&condition, &o.condition, sizeof condition) == 0 &&
+               std::memcmp(values.data(), o.values.data(), sizeof values) == 0;
+    }
+};
+
+/// Inputs without an end that excite every model: smooth, positive, of the size of an air gap in metres.
+template <class Class>
+Inputs<Class> exciting(int k, int stream = 0) {
+    Inputs<Class> out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double phase = (0.011 + 0.0073 * static_cast<double>(i) + 0.0011 * stream) * k;
+        const double rough = static_cast<double>((k * 7919 + static_cast<int>(i) * 104729 + stream * 31) % 1009) / 1009.0;
+        out[i] = static_cast<typename Class::Scalar>(
+            1e-3 * (2.0 + std::sin(phase) + 0.3 * std::cos(2.9 * phase + 0.4 * stream) + 0.05 * rough));
+    }
+    return out;
+}
+
+}  // namespace algest::test

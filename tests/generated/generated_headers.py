@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The models of models/, their generated headers in double (as committed) and in float (generated for the test), in parallel."""
+import os
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from environment import ALGEST, SOURCE, run
+
+MODELS = sorted(path.stem for path in (SOURCE / "models").glob("*.toml"))
+COMPILERS = ("g++", "clang++")
+WARNINGS = "-Wall -Wextra -Wconversion -Wpedantic -Wshadow -Werror".split()
+FLAGS = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-ffp-contract=off", f"-I{SOURCE}/runtime/include"]
+
+
+def class_name(model):
+    return "".join(word.capitalize() for word in model.split("_"))
+
+
+def float_headers(folder):
+    """A folder as generated/, in single precision."""
+    run(ALGEST, "generate", *sorted((SOURCE / "models").glob("*.toml")), "-o", folder, "--scalar", "float")
+    return Path(folder)
+
+
+def folders(float_folder):
+    return {"double": SOURCE / "generated", "float": float_folder}
+
+
+def of(model, folder):
+    """Compiler options that say which model a program of programs/ is about."""
+    return [f"-I{folder}", f'-DHEADER="{model}/{model}.hpp"', f"-DMODEL={class_name(model)}"]
+
+
+def in_parallel(jobs):
+    """Runs (name, function) pairs on all cores; the names of those that failed, with what they said."""
+    def guarded(job):
+        name, function = job
+        try:
+            function()
+        except AssertionError as error:
+            return f"{name}:\n{error}"
+        return None
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return [failure for failure in pool.map(guarded, jobs) if failure]
+
+
+def output(*command):
+    """Exit code and all that was printed."""
+    result = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT)
+    return result.returncode, result.stdout

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The estimators in float: good enough for the PMSM and the bearing, the third-order DC motor on a short
+// window loses most of its digits.
+#include <fmt/format.h>
+
+#include "tests/plants/dc_motor.hpp"
+#include "tests/plants/estimates.hpp"
+#include "tests/plants/magnetic_bearing.hpp"
+#include "tests/plants/pmsm.hpp"
+
+using namespace algest;
+using namespace algest::plants;
+
+namespace {
+
+plan::Plan in_float(const std::string& model) {
+    Diagnostics diagnostics;
+    const auto plan =
+        generator::plan_from_model(ALGEST_SOURCE "/models/" + model + ".toml", {plan::Scalar::float32, ""}, diagnostics);
+    REQUIRE(plan);
+    return *plan;
+}
+
+double worst_of(const std::vector<Estimate>& all, const std::vector<double>& truth) {
+    double out = 0.0;
+    for (std::size_t p = 0; p < truth.size(); ++p) out = std::max(out, worst(errors(all, all.size() / 2, p, truth[p])));
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("float: PMSM") {
+    Pmsm motor;
+    motor.period = 1e-3;
+    std::vector<std::vector<double>> samples;
+    for (const PmsmSample& s : simulate(motor, 1001)) samples.push_back({s.v_d, s.v_q, s.i_d, s.i_q, s.omega});
+    const double error = worst_of(estimates<float>(in_float("pmsm_electrical"), samples), {motor.R, motor.L, motor.K});
+    fmt::print("float, PMSM, ideal currents, worst: {:.1e}\n", error);
+    CHECK(error < 1e-3);  // a tenth of what the sensors' noise leaves
+}
+
+TEST_CASE("float: bearing, in SI units") {
+    const MagneticBearing bearing;
+    const auto all = simulate(bearing, 4001);
+    std::vector<std::vector<double>> samples;
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        samples.push_back({all[k].Z, all[k].Y});
+        for (std::size_t m = 0; m < 3; ++m) {
+            const double before = all[k - 1].current[m], after = all[k].current[m];
+            samples.back().push_back(0.5 * (before * before + after * after));
+        }
+    }
+    const double error =
+        worst_of(estimates<float>(in_float("magnetic_bearing"), samples), {bearing.lambda.begin(), bearing.lambda.end()});
+    fmt::print("float, bearing, 8 N, kappa = 1, worst: {:.1e}\n", error);
+    CHECK(error < 2e-3);  // the bar of errata.md for double
+}
+
+TEST_CASE("float: third-order DC motor") {
+    const DcMotor plant;
+    std::vector<std::vector<double>> samples;
+    for (const DcMotorSample& s : simulate(plant, 3001)) samples.push_back({s.y, s.u});
+    for (const char* window : {"0.8", "1.5", "3"}) {
+        const auto plan = plan_of(fmt::format(R"(format = 1
+name = "dc_motor"
+[sampling]
+period = 1e-3
+window = {}
+[signals]
+y = {{ unit = "rad" }}
+u = {{ unit = "V" }}
+[transfer]
+n = 3
+m = 0
+unknowns = ["a1", "a2", "b0"]
+known = {{ a0 = 0 }}
+)",
+                                              window),
+                                  plan::Scalar::float32);
+        const auto all = estimates<float>(plan, samples);
+        std::vector<double> found;
+        for (const Estimate& e : all) {
+            if (e.status == Status::ok) found.push_back(worst_error(e.parameters, {plant.a1, plant.a2, plant.b0}));
+        }
+        REQUIRE_FALSE(found.empty());
+        fmt::print("float, DC motor, window {} s: at first fill {:.1e}, worst {:.1e}\n", window, found.front(),
+                   worst(found));
+        // errata.md: 5e-2, where double reaches 1e-8. Eight lanes in the dot product and weights rounded once leave a tenth of it
+        if (std::string(window) == "0.8") {
+            CHECK(worst(found) < 5e-2);
+            CHECK(worst(found) > 1e-4);
+        }
+    }
+}
