@@ -12,6 +12,7 @@
 #include "generated/pmsm_electrical/pmsm_electrical.hpp"
 #include "tests/plants/estimates.hpp"
 #include "tests/plants/functional.hpp"
+#include "tests/plants/pmsm_model.hpp"
 
 using namespace algest;
 using namespace algest::plants;
@@ -20,48 +21,6 @@ namespace {
 
 constexpr int samples_of_08s = 8001;
 constexpr std::size_t second_half = 4000;
-
-/// The model of models/ at 10 kHz.
-std::string model(const std::string& solve, const std::string& hold = "zoh") {
-    return fmt::format(R"(format = 1
-name = "pmsm"
-[sampling]
-period = 1e-4
-window = 0.2
-[signals]
-v_d = {{ unit = "V", hold = "{0}" }}
-v_q = {{ unit = "V", hold = "{0}" }}
-i_d = {{ unit = "A", noise = 0.0173 }}
-i_q = {{ unit = "A", noise = 0.0173 }}
-omega = {{ unit = "rad/s" }}
-[constants]
-n_p = {{ value = 50, unit = "1" }}
-[parameters]
-R = {{ unit = "ohm", initial = 5 }}
-L = {{ unit = "H", initial = 0.03 }}
-K = {{ unit = "N.m/A", initial = 0.4 }}
-[[equation]]
-name = "d axis"
-ode = "L*der(i_d) = v_d - R*i_d + n_p*L*omega*i_q"
-rows = 2
-[[equation]]
-name = "q axis"
-ode = "L*der(i_q) = v_q - R*i_q - n_p*L*omega*i_d - K*omega"
-rows = 1
-[estimator]
-solve = "{1}"
-{2}
-)",
-                       hold, solve, solve == "robust" ? "solve_window = 0.2" : "");
-}
-
-std::vector<double> inputs(const PmsmSample& s) { return {s.v_d, s.v_q, s.i_d, s.i_q, s.omega}; }
-
-std::vector<std::vector<double>> inputs(const std::vector<PmsmSample>& samples) {
-    std::vector<std::vector<double>> out;
-    for (const PmsmSample& s : samples) out.push_back(inputs(s));
-    return out;
-}
 
 /// Medians of R, L, K over the second half.
 std::array<double, 3> medians(const std::vector<Estimate>& all, const Pmsm& motor) {
@@ -93,7 +52,7 @@ TEST_CASE("PMSM, the closed loop of errata.md") {
 TEST_CASE("PMSM, ideal currents: S(t) and square solve, timing of the voltage") {
     const Pmsm motor;
     const auto samples = inputs(simulate(motor, samples_of_08s));
-    const auto robust = estimates(plan_of(model("robust")), samples);
+    const auto robust = estimates(plan_of(pmsm_model("robust")), samples);
     print("S(t), zoh, median", medians(robust, motor));
     const std::array<double, 3> truth{motor.R, motor.L, motor.K};
     for (std::size_t p = 0; p < 3; ++p) {
@@ -103,11 +62,11 @@ TEST_CASE("PMSM, ideal currents: S(t) and square solve, timing of the voltage") 
     }
 
     // (22): 500 periods of the speed make the square solve singular now and then, hence medians
-    const auto square = medians(estimates(plan_of(model("square")), samples), motor);
+    const auto square = medians(estimates(plan_of(pmsm_model("square")), samples), motor);
     print("square, zoh, median", square);
     CHECK(worst({square.begin(), square.end()}) < 1e-4);
 
-    const auto half_a_sample = medians(estimates(plan_of(model("square", "linear")), samples), motor);
+    const auto half_a_sample = medians(estimates(plan_of(pmsm_model("square", "linear")), samples), motor);
     print("square, linear, median", half_a_sample);
     CHECK(worst({half_a_sample.begin(), half_a_sample.end()}) < 5e-3);
     // errata.md: 1.6e-3 to 2.7e-3 instead of 2e-5
@@ -117,7 +76,7 @@ TEST_CASE("PMSM, ideal currents: S(t) and square solve, timing of the voltage") 
 TEST_CASE("PMSM, tables in reversed order are seen") {
     const Pmsm motor;
     const auto samples = inputs(simulate(motor, samples_of_08s));
-    plan::Plan plan = plan_of(model("square"));
+    plan::Plan plan = plan_of(pmsm_model("square"));
     for (plan::Table& table : plan.tables) std::reverse(table.weights.begin(), table.weights.end());
     const auto e = medians(estimates(plan, samples), motor);
     print("square, tables reversed, median", e);
@@ -127,7 +86,7 @@ TEST_CASE("PMSM, tables in reversed order are seen") {
 TEST_CASE("PMSM, currents with noise of 0.03 A, S(t)") {
     Pmsm motor;
     motor.current_noise = 0.03;
-    const plan::Plan plan = plan_of(model("robust"));
+    const plan::Plan plan = plan_of(pmsm_model("robust"));
     std::array<std::vector<double>, 3> all;
     for (motor.seed = 1; motor.seed <= 5; ++motor.seed) {
         const auto e = medians(estimates(plan, inputs(simulate(motor, samples_of_08s))), motor);
@@ -145,7 +104,7 @@ TEST_CASE("PMSM, currents with noise of 0.03 A, S(t)") {
 TEST_CASE("PMSM without direct current: the square solve loses R in noise") {
     Pmsm motor;
     motor.current_noise = 0.03;
-    const plan::Plan plan = plan_of(model("square"));
+    const plan::Plan plan = plan_of(pmsm_model("square"));
     const auto with = medians(estimates(plan, inputs(simulate(motor, samples_of_08s))), motor);
     motor.direct_current = false;
     const auto without = medians(estimates(plan, inputs(simulate(motor, samples_of_08s))), motor);
@@ -158,7 +117,7 @@ TEST_CASE("PMSM without direct current: the square solve loses R in noise") {
 TEST_CASE("PMSM, equations (26) and (27): as corrected they are the estimator, as printed K is wrong") {
     const Pmsm motor;
     const auto samples = simulate(motor, samples_of_08s);
-    const auto plan = plan_of(model("square"));
+    const auto plan = plan_of(pmsm_model("square"));
     const auto all = estimates(plan, inputs(samples));
     std::vector<double> misprint_26, misprint_27;
     for (std::size_t end = second_half; end < samples.size(); end += 379) {

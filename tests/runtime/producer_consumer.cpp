@@ -158,9 +158,11 @@ TEST_CASE("two threads: every estimate is one that a single thread has seen, and
         test::SmallEstimator<double> shared(data);
         std::atomic<unsigned> begun{0}, done{0};
         std::atomic<bool> ready{false};
+        std::atomic<unsigned> answered{0};
         std::thread producer([&] {
             while (!ready) std::this_thread::yield();
             for (unsigned k = 0; k < pushes; ++k) {
+                while (k == pushes / 2 && answered == 0) std::this_thread::yield();   // a busy machine may not have run the consumer yet
                 begun.store(k + 1);
                 push(shared, k);
                 done.store(k + 1);
@@ -175,10 +177,12 @@ TEST_CASE("two threads: every estimate is one that a single thread has seen, and
             const unsigned after = begun;
             if (!a.latest.current) {
                 ++overtaken;
+                ++answered;
                 continue;
             }
             if (a.latest.status != Status::ok) continue;
             ++estimates;
+            ++answered;
             const auto found = seen.find({a.lumped[0], a.lumped[1]});
             if (found == seen.end()) {
                 ++unknown;
