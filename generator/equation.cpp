@@ -74,7 +74,7 @@ public:
 
 private:
     [[noreturn]] void fail(const Formula& at, const std::string& what, const std::string& right) {
-        diagnostics_.error(equation_.file, equation_.place(at->offset), what, right);
+        diagnostics_.error(equation_.file, equation_.place(at->start), what, right);
         throw Stop{};
     }
 
@@ -246,6 +246,7 @@ private:
         if (cln::abs(*exponent) > formula::largest_exponent) fail(f->arguments[1], "the exponent is beyond " + std::to_string(formula::largest_exponent), "a model needs no such power");
         const int e = cln::cl_I_to_int(cln::numerator(*exponent));
         if (e < 0) return reciprocal(base, -e);
+        if (e == 0) return 1;
         return GiNaC::pow(of(base), e);
     }
 
@@ -258,7 +259,9 @@ private:
         const Contents inside = contents(f);
         if (!inside.signals) {
             if (!inside.parameters) return GiNaC::pow(function_atom(f, true), power);   // a function of constants
-            return GiNaC::pow(of(f), -power);
+            const ex below = of(f).expand();
+            if (below.is_zero()) fail(f, "division by zero", "remove the term");
+            return GiNaC::pow(below, -power);
         }
         switch (f->kind) {
             case Kind::negate: return (power % 2 == 0 ? 1 : -1) * reciprocal(f->arguments[0], power);

@@ -162,7 +162,8 @@ private:
 
     const Polynomial& leading(int e) const {
         const OperatorForm& form = forms_[static_cast<std::size_t>(e)];
-        return form.terms[static_cast<std::size_t>(form.leading >= 0 ? form.leading : 0)].coefficient;
+        if (form.leading >= 0) return form.terms[static_cast<std::size_t>(form.leading)].coefficient;
+        return std::find_if(form.terms.begin(), form.terms.end(), [&](const Term& t) { return kept(static_cast<std::size_t>(e), t); })->coefficient;
     }
 
     template <class Use>
@@ -245,7 +246,7 @@ private:
         const std::size_t physical = c.parameters.size();
         if (linear && physical < quotient.unknowns.size()) return take_as_written(c, number);
         if (quotient.unknowns.size() > physical) return refuse_surplus(c, quotient);
-        if (quotient.unknowns.size() < physical) return refuse_shortage(c, quotient);
+        if (rank(c, quotient) < physical) return refuse_shortage(c, quotient, physical - rank(c, quotient));
         return take_divided(c, quotient, number);
     }
 
@@ -262,7 +263,21 @@ private:
     std::string seen(const Divided& quotient) const {
         std::string out;
         for (const Polynomial& u : quotient.unknowns) out += (out.empty() ? "" : ", ") + meaning_text(u, quotient.denominator);
-        return out.empty() ? "nothing" : out;
+        return out.empty() ? "nothing" : shortened(out);
+    }
+
+    static constexpr double most_terms = 2000;
+    static constexpr std::size_t longest_text = 150;
+
+    /// A formula in a message.
+    static std::string shortened(const std::string& formula) {
+        return formula.size() <= longest_text ? formula : formula.substr(0, longest_text) + "...";
+    }
+
+    bool refuse_inverse(const Component& c, const std::string& why) {
+        diagnostics_.error(model_.path, model_.equations[static_cast<std::size_t>(c.equations[0])].at,
+                           "the combinations that the rows see cannot be solved for " + list(c.parameters) + " " + why, "name the combinations as parameters of their own");
+        return false;
     }
 
     bool refuse_surplus(const Component& c, const Divided& quotient) {
@@ -272,7 +287,7 @@ private:
         each_term(c, [&](int e, int, const Term& t) {
             if (found || total_degree(t.coefficient) <= 1) return;
             const OperatorForm& form = forms_[static_cast<std::size_t>(e)];
-            term = "(" + text(t.coefficient, names_) + ")*" + form.text(t.product);
+            term = shortened("(" + text(t.coefficient, names_) + ")*" + form.text(t.product));
             where = e;
             found = true;
         });
@@ -284,11 +299,67 @@ private:
         return false;
     }
 
-    bool refuse_shortage(const Component& c, const Divided& quotient) {
+    /// How many of the parameters the unknowns determine: the rank of the exact Jacobian of unknowns by parameters, at one
+    /// point (primes), where it is what it is almost everywhere. b/a, c/a and c/b are three unknowns of rank 2.
+    std::size_t rank(const Component& c, const Divided& quotient) const {
+        std::vector<Rational> point(variables_, 1);
+        int prime = 101;
+        for (Rational& x : point) {
+            x = Rational(prime) / 7;
+            do prime += 2;
+            while (prime % 3 == 0 || prime % 5 == 0 || prime % 7 == 0 || prime % 11 == 0 || prime % 13 == 0);
+        }
+        std::vector<std::vector<Rational>> rows;
+        const Rational below = value_at(quotient.denominator, point);
+        for (const Polynomial& u : quotient.unknowns) {
+            std::vector<Rational> row;
+            for (const int p : c.parameters) {
+                const std::size_t k = static_cast<std::size_t>(p);
+                row.push_back(value_at(derivative(u, k), point) * below - value_at(u, point) * value_at(derivative(quotient.denominator, k), point));
+            }
+            rows.push_back(row);
+        }
+        std::size_t out = 0;
+        for (std::size_t column = 0; column < c.parameters.size() && out < rows.size(); ++column) {
+            std::size_t pivot = out;
+            while (pivot < rows.size() && cln::zerop(rows[pivot][column])) ++pivot;
+            if (pivot == rows.size()) continue;
+            std::swap(rows[out], rows[pivot]);
+            for (std::size_t r = out + 1; r < rows.size(); ++r) {
+                const Rational factor = rows[r][column] / rows[out][column];
+                for (std::size_t j = column; j < c.parameters.size(); ++j) rows[r][j] = rows[r][j] - factor * rows[out][j];
+            }
+            ++out;
+        }
+        return out;
+    }
+
+    static Rational value_at(const Polynomial& a, const std::vector<Rational>& point) {
+        Rational out = 0;
+        for (const auto& [exponents, coefficient] : a) {
+            Rational term = coefficient;
+            for (std::size_t k = 0; k < exponents.size(); ++k) if (exponents[k] != 0) term = term * exact::power(point[k], exponents[k]);
+            out = out + term;
+        }
+        return out;
+    }
+
+    static Polynomial derivative(const Polynomial& a, std::size_t k) {
+        Polynomial out;
+        for (const auto& [exponents, coefficient] : a) {
+            if (exponents[k] == 0) continue;
+            Exponents lowered = exponents;
+            --lowered[k];
+            out.emplace(lowered, coefficient * exponents[k]);
+        }
+        return out;
+    }
+
+    bool refuse_shortage(const Component& c, const Divided& quotient, std::size_t missing) {
         const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
         diagnostics_.unidentifiable(model_.path, equation.at,
                                     "the " + std::to_string(c.parameters.size()) + " parameters " + list(c.parameters) + " enter only through " + seen(quotient),
-                                    "declare " + std::to_string(c.parameters.size() - quotient.unknowns.size()) + " of them under [constants], or name these combinations as parameters");
+                                    "declare " + std::to_string(missing) + " of them under [constants], or name these combinations as parameters");
         return false;
     }
 
@@ -420,6 +491,16 @@ private:
             const GiNaC::symbol& x = symbols[static_cast<std::size_t>(p)];
             const ex solution = (-equations[e].coeff(x, 0) / equations[e].coeff(x, 1)).normal();
             equations.erase(equations.begin() + static_cast<std::ptrdiff_t>(e));
+            double terms = 0;
+            for (const ex& other : equations) terms += terms_after(other, x, solution);
+            for (const auto& [q, earlier] : solved) {
+                const ex parts = earlier.numer_denom();
+                terms += terms_after(parts.op(0).expand(), x, solution) + terms_after(parts.op(1).expand(), x, solution);
+            }
+            if (terms > most_terms) return refuse_inverse(c, "in fewer than " + std::to_string(static_cast<int>(most_terms)) + " terms");
+            for (const auto& [q, earlier] : solved) {
+                if (earlier.denom().subs(x == solution).normal().is_zero()) return refuse_inverse(c, "at any value: a denominator vanishes");
+            }
             for (ex& other : equations) other = other.subs(x == solution).normal().numer().expand();
             for (auto& [q, earlier] : solved) earlier = earlier.subs(x == solution).normal();
             solved.emplace_back(p, solution);
@@ -430,6 +511,17 @@ private:
             out_.inverse[static_cast<std::size_t>(p)] = reduced({to_polynomial(parts.op(0).expand(), unknowns), to_polynomial(parts.op(1).expand(), unknowns)});
         }
         return true;
+    }
+
+    static double terms_of(const ex& expanded) { return GiNaC::is_a<GiNaC::add>(expanded) ? static_cast<double>(expanded.nops()) : 1; }
+
+    /// Terms of an expanded polynomial after x is replaced, at most.
+    static double terms_after(const ex& polynomial, const GiNaC::symbol& x, const ex& solution) {
+        const ex parts = solution.numer_denom();
+        const double terms = terms_of(parts.op(0).expand()) + terms_of(parts.op(1).expand()) - 1;
+        double out = terms_of(polynomial);
+        for (int k = 0; k < polynomial.degree(x) && out <= most_terms; ++k) out *= terms;
+        return out;
     }
 
     /// The equation and open parameter in which the equation is linear, with the fewest other open parameters beside it.

@@ -33,9 +33,11 @@ Polynomial product(const Polynomial& a, const Polynomial& b) {
         for (const auto& [y, d] : b) {
             Exponents e = x;
             for (std::size_t k = 0; k < e.size(); ++k) e[k] += y[k];
-            out = sum(out, Polynomial{{e, c * d}});
+            Rational& sum = out[e];
+            sum = sum + c * d;
         }
     }
+    for (auto at = out.begin(); at != out.end();) at = cln::zerop(at->second) ? out.erase(at) : std::next(at);
     return out;
 }
 

@@ -82,7 +82,9 @@ std::optional<std::vector<ChosenRow>> choose_rows(const model::Model& model, con
     const int over = matching.first_unmatched();
     if (over >= 0 && !pooled) {
         const lumping::Unknown& unknown = lumping.unknowns[static_cast<std::size_t>(over)];
-        diagnostics.error(model.path, model.equations[0].rows.at.line > 0 ? model.equations[0].rows.at : model.equations[0].at,
+        const std::size_t holds = static_cast<std::size_t>(std::find_if(sees.begin(), sees.end(), [&](const std::set<int>& s) { return s.count(over) > 0; }) - sees.begin());
+        const model::Equation& equation = model.equations[holds];
+        diagnostics.error(model.path, equation.rows.at.line > 0 ? equation.rows.at : equation.at,
                           "the rows cannot determine " + unknown.name + ": " + std::to_string(total) + " rows for " + std::to_string(lumping.unknowns.size()) + " unknowns",
                           "ask for more rows of the equations that hold it, leave rows out, or pool instants with solve = \"least_squares\"");
         return std::nullopt;

@@ -139,6 +139,7 @@ CASES = [
     linear(model("u x", {}, "a b", ("der(x) = a*x + b*u", "rows = [2, 4]")), 1, {None: [(1, "x", 1)], "a": [(-1, "x", 0)], "b": [(-1, "u", 0)]}, "a list of rows", ["a", "b"], rows=[2, 4]),
     linear(model("u x", {}, "a b", ("der(x) = a*x + b*u", "rows = 4")), 1, {None: [(1, "x", 1)], "a": [(-1, "x", 0)], "b": [(-1, "u", 0)]}, "more rows than unknowns", ["a", "b"], rows=[1, 2, 3, 4]),
     linear(model("u x", {}, "a b", ("der(x) = a*x + b*u", "kappa = 3")), 1, {None: [(1, "x", 1)], "a": [(-1, "x", 0)], "b": [(-1, "u", 0)]}, "kappa 3", ["a", "b"], kappa=3),
+    linear(model("u x", {}, "a b", "der(x) = a*u + b*(a - a + x)^2*(u - u)^0"), 1, {None: [(1, "x", 1)], "a": [(-1, "u", 0)], "b": [(-1, "x^2", 0)]}, "powers of 0 and what cancels", ["a", "b"]),
     linear(transfer('n = 1\nunknowns = ["a0"]\n[[transfer.input]]\nsignal = "u"\nunknowns = ["b0"]\n[[transfer.input]]\nsignal = "w"\nm = 1\nunknowns = ["c0"]\nknown = { c1 = -3 }\n'), 1,
            {None: [(1, "y", 1), (3, "w", 1)], "a0": [(1, "y", 0)], "b0": [(-1, "u", 0)], "c0": [(-1, "w", 0)]}, "two inputs", ["a0", "b0", "c0"]),
     linear(transfer('n = 2\nm = 2\nunknowns = ["a0", "a1", "b0", "b1", "b2"]\n'), 2,
