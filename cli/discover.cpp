@@ -14,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "generator/generate.hpp"
 #include "generator/source_text.hpp"
+#include "lab/simulate.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <set>
 
+#include "lab/amend.hpp"
+#include "lab/fit.hpp"
+#include "lab/weak_form.hpp"
+
 namespace algest::lab {
 
 namespace {
@@ -367,7 +371,7 @@ private:
             out.outputs.push_back({nominal.model.signals[s].name, error(nominal, out.before, s), error(best, out.after, s), floor_[o]});
         }
         for (const Amendment& a : best.amendments) {
-            NamedEffect named{a.effect, {}, {}, {}};
+            NamedEffect named{a.effect, {}, {}, {}, {}, {}};
             for (std::size_t k = 0; k < a.equations.size(); ++k) {
                 named.equation += (k > 0 ? ", " : "") + best.whole.equations[a.equations[k]].name;
                 named.term += (k > 0 ? ", " : "") + a.terms[k];

@@ -6,58 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "lab/amend.hpp"
-#include "lab/fit.hpp"
-#include "lab/weak_form.hpp"
+#include "generator/diagnostics.hpp"
+#include "lab/discovery.hpp"
+#include "lab/effects.hpp"
+#include "lab/recording.hpp"
 
 namespace algest::lab {
-
-enum class Verdict { named, ambiguous, none, unknown };
-const char* name(Verdict verdict);
-
-/// A parameter of a named effect.
-struct NamedParameter {
-    std::string name;
-    std::string unit;
-    double value;
-    double sd;
-};
-
-/// An effect in the place where it enters.
-struct NamedEffect {
-    std::string name;
-    std::string equation;
-    std::string term;
-    std::vector<NamedParameter> parameters;
-};
-
-/// Share of the gap.
-struct Where {
-    std::string equation;
-    double share;         ///< of the sum over equations of residual power above the noise
-    double from_s;        ///< the stretch that holds most of it
-    double to_s;
-    std::string region;   ///< what explains the residual best, in words
-};
-
-struct OutputGap {
-    std::string signal;
-    double before;        ///< nrmse of the refitted nominal model on the test stretch
-    double after;         ///< of the amended model; equal to before where nothing is named
-    double floor;         ///< nrmse that the declared sensor noise alone makes
-};
-
-struct Discovery {
-    Verdict verdict;
-    std::vector<NamedEffect> effects;
-    std::vector<std::vector<std::string>> alternatives;   ///< other sets of effects that the data allow
-    std::vector<std::string> experiments;                 ///< that would tell them apart
-    std::vector<Where> where;
-    std::vector<OutputGap> outputs;
-    std::string model_text;                               ///< amended, with the fitted values as initial ones
-    FreeRun before;                                       ///< over the whole recording
-    FreeRun after;
-};
 
 struct DiscoverOptions {
     std::optional<std::pair<double, double>> train_s;     ///< default: the first 70 percent
