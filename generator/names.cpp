@@ -80,6 +80,11 @@ std::optional<NameFault> fault_of_model_name(const std::string& name) {
     return std::nullopt;
 }
 
+std::string folded(std::string name) {
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return name;
+}
+
 std::string class_name(const std::string& model_name) {
     std::string out;
     bool upper = true;

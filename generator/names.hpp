@@ -16,6 +16,9 @@ std::optional<NameFault> fault_of_name(const std::string& name);
 /// The same for the name of a model: lower case, digits, underscores; it becomes a directory and a class.
 std::optional<NameFault> fault_of_model_name(const std::string& name);
 
+/// In lower case: names that differ by case alone have one such text.
+std::string folded(std::string name);
+
 /// PmsmElectrical for pmsm_electrical.
 std::string class_name(const std::string& model_name);
 

@@ -33,11 +33,6 @@ std::optional<IndexedName> indexed(const std::string& name) {
     return IndexedName{name.substr(0, digits), std::stoi(name.substr(digits))};
 }
 
-std::string folded(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return name;
-}
-
 std::string derivative_text(const std::string& signal, int order) {
     if (order == 0) return signal;
     return order == 1 ? "der(" + signal + ")" : "der(" + signal + "," + std::to_string(order) + ")";

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// [[equation]], [transfer], [[feedback]]: formulas whose names exist and whose dimensions fit.
+#include <algorithm>
+
+#include "generator/constant_value.hpp"
+#include "generator/dimension.hpp"
+#include "generator/model_sections.hpp"
+#include "generator/names.hpp"
+#include "generator/transfer.hpp"
+
+namespace algest::model {
+
+namespace {
+
+using formula::Formula;
+
+Position place_of(int offset, const std::vector<Position>& places) { return places[std::min(static_cast<std::size_t>(offset), places.size() - 1)]; }
+
+formula::Complain complaint_at(const std::vector<Position>& places, TomlAccess& file) {
+    return [&places, &file](int offset, const std::string& what, const std::string& right) { file.error(place_of(offset, places), what, right); };
+}
+
+bool unknown_name(const Formula& f, const std::vector<Position>& places, Reading& reading) {
+    std::string right = "declare it under [signals], [constants] or [parameters]";
+    const auto other_case = reading.names.find(folded(f->name));
+    if (other_case != reading.names.end()) right = "did you mean " + other_case->second + "?";
+    reading.file.error(place_of(f->start, places), "unknown name '" + f->name + "'", right);
+    return false;
+}
+
+/// Every name is declared, der() takes a signal and a whole order. Complains about each that is not.
+bool names_exist(const Formula& f, const std::vector<Position>& places, Reading& reading) {
+    const Model& model = reading.model;
+    if (f->kind == formula::Kind::name) {
+        const bool declared = model.signal(f->name) != nullptr || model.constant(f->name) != nullptr || model.parameter(f->name) != nullptr;
+        return declared || unknown_name(f, places, reading);
+    }
+    if (f->kind == formula::Kind::call && f->name == "der") {
+        const Formula& x = f->arguments[0];
+        if (x->kind != formula::Kind::name || (model.signal(x->name) == nullptr && names_exist(x, places, reading))) {
+            reading.file.error(place_of(x->start, places), "der() of something that is not a signal", "write der(x) of a signal x; expand products by hand");
+            return false;
+        }
+        if (model.signal(x->name) == nullptr) return false;
+        if (f->arguments.size() > 1) {
+            const Formula& order = f->arguments[1];
+            const bool whole_order = order->kind == formula::Kind::number && exact::is_integer(order->value) &&
+                                     order->value >= 1 && order->value <= largest_order;
+            if (!whole_order) {
+                reading.file.error(place_of(order->start, places), "the order of der() is not a whole number from 1 to " + std::to_string(largest_order), "write der(x,2)");
+                return false;
+            }
+        }
+        return true;
+    }
+    bool good = true;
+    for (const Formula& a : f->arguments) good = names_exist(a, places, reading) && good;
+    return good;
+}
+
+/// Every name is declared, every part made of constants has a value.
+bool sound(const Formula& f, const std::vector<Position>& places, Reading& reading) {
+    return names_exist(f, places, reading) && check_constants(reading.model, f, complaint_at(places, reading.file));
+}
+
+RowChoice read_rows(const toml::table& t, TomlAccess& file) {
+    RowChoice out;
+    const toml::node* node = t.get("rows");
+    if (node == nullptr) return out;
+    out.at = position(*node);
+    const toml::array* array = node->as_array();
+    if (array == nullptr) {
+        out.count = file.whole(t, "rows", 1, largest_row);
+        return out;
+    }
+    for (const toml::node& entry : *array) {
+        const auto p = entry.value_exact<std::int64_t>();
+        if (!p || *p < 1 || *p > largest_row || std::count(out.list.begin(), out.list.end(), static_cast<int>(*p)) > 0) {
+            file.error(entry, "rows lists p from 1 to " + std::to_string(largest_row) + ", each once", "e.g. rows = [2, 3]");
+        } else {
+            out.list.push_back(static_cast<int>(*p));
+        }
+    }
+    if (array->empty()) file.error(*node, "rows is empty", "leave it out, or list some p");
+    return out;
+}
+
+/// What [[equation]] and [transfer] have in common: which rows, of what weight.
+void read_estimation(const toml::table& t, Equation& e, TomlAccess& file) {
+    e.file = file.path();
+    e.kappa = file.whole(t, "kappa", 0, largest_kappa).value_or(0);
+    e.rows = read_rows(t, file);
+    e.scale = file.positive(t, "scale");
+}
+
+void read_equation(const toml::table& t, Reading& reading) {
+    TomlAccess& file = reading.file;
+    Model& model = reading.model;
+    file.known_keys(t, {"name", "ode", "kappa", "rows", "scale"});
+    Equation e;
+    e.name = file.string(t, "name").value_or("equation " + std::to_string(model.equations.size() + 1));
+    if (const auto fault = fault_of_prose(e.name)) file.error(*t.get("name"), fault->what, fault->right);
+    for (const Equation& other : model.equations) {
+        if (other.name == e.name && t.contains("name")) file.error(*t.get("name"), "two equations are named " + quoted(e.name), "rename one");
+    }
+    read_estimation(t, e, file);
+    const auto ode = file.string(t, "ode");
+    if (!ode) {
+        if (!t.contains("ode")) file.error(t, "an equation without ode", "add ode = \"L*der(i) = v - R*i\"");
+        return;
+    }
+    e.ode = *ode;
+    e.at = position(*t.get("ode"));
+    e.places = file.places(*t.get("ode"), ode->size());
+    const auto sides = formula::parse_equation(e.ode, complaint_at(e.places, file));
+    if (!sides) return;
+    e.sides = *sides;
+    const bool left = sound(e.sides.left, e.places, reading);   // both: each has its own complaints
+    const bool right = sound(e.sides.right, e.places, reading);
+    if (!left || !right) return;
+    check_dimension(model, e, file.diagnostics());
+    model.equations.push_back(std::move(e));
+}
+
+void read_law(const toml::table& t, Reading& reading) {
+    TomlAccess& file = reading.file;
+    Model& model = reading.model;
+    file.known_keys(t, {"signal", "law"});
+    Feedback f;
+    f.at = position(t);
+    const auto signal = file.string(t, "signal");
+    const auto law = file.string(t, "law");
+    if (!t.contains("signal") || !t.contains("law")) file.error(t, "[[feedback]] needs signal and law", "e.g. signal = \"u\", law = \"K*(r-y)\"");
+    if (!signal || !law) return;
+    f.signal = *signal;
+    if (model.signal(f.signal) == nullptr) file.error(*t.get("signal"), quoted(f.signal) + " is not a signal", "declare it under [signals]");
+    for (const Feedback& other : model.feedback) {
+        if (other.signal == f.signal) file.error(*t.get("signal"), "a second law for " + quoted(f.signal), "one law computes a signal");
+    }
+    f.law_text = *law;
+    f.places = file.places(*t.get("law"), law->size());
+    const auto formula = formula::parse(f.law_text, complaint_at(f.places, file));
+    if (!formula || !sound(*formula, f.places, reading)) return;
+    f.law = *formula;
+    model.feedback.push_back(std::move(f));
+}
+
+void read_order(const toml::table& t, int n, TransferInput& input, TomlAccess& file) {
+    input.m_at = t.contains("m") ? position(*t.get("m")) : position(t);
+    input.m = file.whole(t, "m", 0, largest_order).value_or(0);
+    if (input.m > n) {
+        file.error(input.m_at, "m = " + std::to_string(input.m) + " is larger than n = " + std::to_string(n),
+                   "the input may be differentiated at most as often as the output: m <= n");
+    }
+}
+
+Coefficients read_coefficients(const toml::table& t, TomlAccess& file) {
+    Coefficients out;
+    if (const toml::node* node = t.get("unknowns")) {
+        const toml::array* array = node->as_array();
+        if (array == nullptr) file.error(*node, "'unknowns' is not a list", "write unknowns = [\"a0\", \"b0\"]");
+        else for (const toml::node& entry : *array) {
+            const auto name = entry.value_exact<std::string>();
+            if (!name) file.error(entry, "an unknown is not a text", "write unknowns = [\"a0\", \"b0\"]");
+            else out.unknowns.push_back({*name, position(entry)});
+        }
+    }
+    if (const toml::table* known = file.subtable(t, "known")) {
+        file.each_named(*known, [&](const std::string& name, Position at, const toml::node& node) {
+            if (const auto value = file.number(node, name)) out.known.push_back({name, at, *value});
+        });
+    }
+    return out;
+}
+
+/// input = "u", or nothing said; n: m may not be above it.
+TransferInput read_only_input(const toml::table& t, int n, TomlAccess& file) {
+    TransferInput out;
+    out.at = t.contains("input") ? position(*t.get("input")) : position(t);
+    out.signal = file.string(t, "input").value_or("u");
+    read_order(t, n, out, file);
+    return out;
+}
+
+/// [[transfer.input]]
+std::vector<TransferInput> read_inputs(const toml::table& t, int n, TomlAccess& file) {
+    std::vector<TransferInput> out;
+    if (t.get("input")->as_array()->empty()) file.error(*t.get("input"), "no input", "leave it out where the input is u, or name it");
+    if (t.contains("m")) file.error(*t.get("m"), "m beside [[transfer.input]]", "give each input its own m");
+    file.each_table(t, "input", [&](const toml::table& entry) {
+        file.known_keys(entry, {"signal", "m", "unknowns", "known"});
+        TransferInput one;
+        const auto signal = file.string(entry, "signal");
+        if (!entry.contains("signal")) file.error(entry, "[[transfer.input]] without signal", "add signal = \"u\"");
+        if (!signal) return;
+        one.at = position(*entry.get("signal"));
+        one.signal = *signal;
+        read_order(entry, n, one, file);
+        one.coefficients = read_coefficients(entry, file);
+        out.push_back(one);
+    });
+    return out;
+}
+
+/// True if a coefficient is known and not 0: the equation's text shows it without the unit that it has.
+bool knows_a_number(const Transfer& transfer) {
+    const auto in = [](const Coefficients& c) {
+        return std::any_of(c.known.begin(), c.known.end(), [](const KnownCoefficient& k) { return !cln::zerop(k.value); });
+    };
+    return in(transfer.coefficients) || std::any_of(transfer.inputs.begin(), transfer.inputs.end(), [&](const TransferInput& i) { return in(i.coefficients); });
+}
+
+void read_transfer(const toml::table& t, Reading& reading) {
+    TomlAccess& file = reading.file;
+    file.known_keys(t, {"output", "input", "n", "m", "kappa", "rows", "unknowns", "known", "scale"});
+    Transfer transfer;
+    transfer.at = position(t);
+    transfer.output = file.string(t, "output").value_or("y");
+    transfer.output_at = t.contains("output") ? position(*t.get("output")) : transfer.at;
+    const auto n = file.whole(t, "n", 1, largest_order);
+    if (!t.contains("n")) file.error(t, "[transfer] without n", "add n, the order of the output's highest derivative");
+    transfer.n = n.value_or(1);
+    const int largest_m = n.value_or(largest_order);
+    transfer.coefficients = read_coefficients(t, file);
+    const bool several = t.contains("input") && t.get("input")->is_array();
+    transfer.inputs = several ? read_inputs(t, largest_m, file) : std::vector<TransferInput>{read_only_input(t, largest_m, file)};
+    Equation e;
+    e.name = "transfer";
+    e.at = transfer.at;
+    read_estimation(t, e, file);
+    if (file.diagnostics().has_errors() || !write_out(transfer, reading.model, e, file.diagnostics())) return;
+    if (!knows_a_number(transfer)) check_dimension(reading.model, e, file.diagnostics());
+    reading.model.equations.push_back(std::move(e));
+}
+
+}  // namespace
+
+void read_equations(const toml::table& root, Reading& reading) {
+    TomlAccess& file = reading.file;
+    const toml::node* equations = root.get("equation");
+    if (equations != nullptr && root.contains("transfer")) {
+        file.error(*equations, "both [transfer] and [[equation]]", "a model has one or the other");
+    } else if (root.contains("transfer")) {
+        if (const toml::table* t = file.subtable(root, "transfer")) read_transfer(*t, reading);
+    } else if (equations == nullptr || (equations->is_array() && equations->as_array()->empty())) {
+        file.error(Position{1, 1}, "no equation", "add [transfer] or [[equation]]");
+    } else {
+        file.each_table(root, "equation", [&](const toml::table& table) { read_equation(table, reading); });
+    }
+}
+
+void read_feedback(const toml::table& root, Reading& reading) {
+    reading.file.each_table(root, "feedback", [&](const toml::table& table) { read_law(table, reading); });
+}
+
+}  // namespace algest::model
