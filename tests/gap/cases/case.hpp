@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A case: a machine with something hidden, its recording, and the truth.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "refit.hpp"
+
+namespace algest::gap {
+
+/// What can be hidden in a system: `effect`, `effect@slot`, two of them with `+`, `none`, `none_coloured`, `none_process`, `one_speed`.
+std::vector<std::string> hidings(const std::string& family);
+
+struct Case {
+    std::string name, hidden;
+    System system;
+    Machine machine;                             ///< the true one
+    std::vector<std::vector<double>> measured;   ///< by signal of the model
+    std::vector<double> initial_guess;           ///< by quantity
+    std::vector<double> noise, resolution;       ///< by signal
+    std::vector<double> floor, nominal;          ///< nrmse by scored signal: of the true machine, of the model with true parameters
+    std::vector<double> refitted;                ///< nrmse of the refitted model, to expect before the effect is named
+    std::vector<std::string> rivals;             ///< effects that explain the recording as well
+    bool ambiguous = false;
+    std::string note;
+};
+
+/// Throws std::runtime_error where the seed gives no sound case.
+Case make_case(const std::string& family, const std::string& hidden, std::uint64_t seed);
+
+/// model.toml, measured.csv, answer.json, and truth.toml: the amended model, for a check by `algest simulate`.
+void write_case(const Case& made, const std::string& folder);
+
+}  // namespace algest::gap
