@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include "generator/constant_value.hpp"
 #include "generator/ginac_exact.hpp"
@@ -203,7 +204,7 @@ private:
     ex of(const Formula& f) {
         if (const auto value = rational_value(f)) return to_ginac(*value);
         switch (f->kind) {
-            case Kind::number: return to_ginac(f->value);
+            case Kind::number: break;   // has a value
             case Kind::name: {
                 const int parameter = model_.parameter_index(f->name);
                 if (parameter >= 0) return parameters_[static_cast<std::size_t>(parameter)];
@@ -223,7 +224,7 @@ private:
             case Kind::power: return power(f);
             case Kind::call: return call(f);
         }
-        throw Stop{};
+        throw std::logic_error("a number without a value");
     }
 
     ex call(const Formula& f) {

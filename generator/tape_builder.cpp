@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/tape_builder.hpp"
 
-#include <optional>
 #include <stdexcept>
+
+#include "generator/constant_value.hpp"
 
 namespace algest {
 
@@ -11,28 +12,6 @@ using formula::Kind;
 using plan::Op;
 
 namespace {
-
-std::optional<Rational> folded(Op op, const Rational& a, const Rational& b) {
-    switch (op) {
-        case Op::neg: return -a;
-        case Op::add: return a + b;
-        case Op::sub: return a - b;
-        case Op::mul: return a * b;
-        case Op::div: return cln::zerop(b) ? std::nullopt : std::optional<Rational>(a / b);
-        case Op::abs: return cln::abs(a);
-        case Op::sgn: return cln::signum(a);
-        case Op::min: return cln::min(a, b);
-        case Op::max: return cln::max(a, b);
-        case Op::sqrt: return exact::function_value("sqrt", a);
-        case Op::exp: return exact::function_value("exp", a);
-        case Op::log: return exact::function_value("log", a);
-        case Op::sin: return exact::function_value("sin", a);
-        case Op::cos: return exact::function_value("cos", a);
-        case Op::tan: return exact::function_value("tan", a);
-        case Op::pow: return cln::plusp(a) ? exact::real_power(a, b) : std::nullopt;
-        default: return std::nullopt;
-    }
-}
 
 Op op_of_function(const std::string& name) {
     static const std::map<std::string, Op> ops = {{"sin", Op::sin}, {"cos", Op::cos}, {"tan", Op::tan}, {"exp", Op::exp}, {"log", Op::log},
@@ -52,9 +31,6 @@ int TapeBuilder::constant(const Rational& value) {
 }
 
 int TapeBuilder::add(Op op, int a, int b) {
-    if (!reads_input(op) && is_constant(a) && (b < 0 || is_constant(b))) {
-        if (const auto value_now = folded(op, value(a), b < 0 ? Rational(0) : value(b))) return constant(*value_now);
-    }
     if (op == Op::mul && is_constant(a) && value(a) == 1) return b;
     if ((op == Op::mul || op == Op::div) && is_constant(b) && value(b) == 1) return a;
     const auto key = std::make_tuple(op, a, b);
@@ -80,10 +56,10 @@ int TapeBuilder::power(int base, int exponent) {
 }
 
 int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
+    if (const auto value = model::constant_value(model_, f)) return constant(*value);
     switch (f->kind) {
-        case Kind::number: return constant(f->value);
+        case Kind::number: break;
         case Kind::name: {
-            if (const model::Constant* c = model_.constant(f->name)) return constant(c->value);
             const int signal = model_.signal_index(f->name);
             if (signal >= 0) return add(delayed ? Op::previous : Op::input, inputs_.signal[static_cast<std::size_t>(signal)]);
             if (inputs_.parameter.empty()) throw std::logic_error("a parameter inside a signal: " + f->name);
@@ -115,7 +91,7 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
             return add(f->kind == Kind::add ? Op::add : f->kind == Kind::subtract ? Op::sub : f->kind == Kind::multiply ? Op::mul : Op::div, a, b);
         }
     }
-    throw std::logic_error("a formula of no kind");
+    throw std::logic_error("a number without a value");
 }
 
 int TapeBuilder::derivative(const formula::Formula& der) {
@@ -151,7 +127,7 @@ int TapeBuilder::polynomial(const Polynomial& p) {
     return out < 0 ? constant(0) : out;
 }
 
-int TapeBuilder::quotient(const Quotient& q) { 
+int TapeBuilder::quotient(const Quotient& q) {
     const int above = polynomial(q.numerator);
     return add(Op::div, above, polynomial(q.denominator));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Formulas, signal products and quotients of polynomials -> operations of a tape: equal ones once, constants folded exactly.
+// Formulas, signal products and quotients of polynomials -> operations of a tape: equal ones once, formulas of constants as their values.
 #pragma once
 #include <map>
 #include <tuple>
