@@ -46,8 +46,7 @@ bool annihilates(int power, Orders orders) {
 std::vector<KernelTerm> kernel_terms(int i, int p, Orders orders) {
     std::vector<KernelTerm> out;
     for (const LeibnizTerm& term : leibniz_expansion(i, orders)) {
-        // s^-(gamma+1) d^j/ds^j  is the integral of (t-tau)^gamma (-tau)^j / gamma!
-        out.push_back({term.coefficient, orders.kappa + orders.n + p - term.power - 1, term.derivative});
+        out.push_back({term.coefficient, time_exponent(term.power, p, orders), term.derivative});
     }
     return out;
 }

@@ -28,6 +28,9 @@ std::vector<LeibnizTerm> leibniz_expansion(int i, Orders orders);
 /// True when Pi s^power = 0: powers 0 .. n-1 come from initial conditions, -1 .. -kappa from polynomial perturbations.
 bool annihilates(int power, Orders orders);
 
+/// gamma: s^power d^j/ds^j, divided by s^(kappa+n+p), is s^-(gamma+1) d^j/ds^j: the integral of (t-tau)^gamma (-tau)^j / gamma!.
+constexpr int time_exponent(int power, int p, Orders orders) { return orders.kappa + orders.n + p - power - 1; }
+
 /// A term after division by s^(kappa+n+p), in time: coefficient (t-tau)^gamma (-tau)^j / gamma!  (000, equation 10).
 struct KernelTerm {
     exact::Rational coefficient;   ///< without the 1/gamma!

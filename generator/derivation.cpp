@@ -2,6 +2,7 @@
 // The derivation of a plan: for the person who reviews a diff (Markdown), for a paper (LaTeX), for a program (JSON).
 #include <nlohmann/json.hpp>
 
+#include "generator/annihilator.hpp"
 #include "generator/exact.hpp"
 #include "generator/formula.hpp"
 #include "generator/generate.hpp"
@@ -42,10 +43,7 @@ public:
     void add(const Rational& coefficient, const std::string& factor) {
         const bool negative = cln::minusp(coefficient);
         const Rational size = cln::abs(coefficient);
-        std::string number = exact::text(size);
-        if (latex_ && !exact::is_integer(size)) {
-            number = "\\tfrac{" + exact::text(cln::numerator(size)) + "}{" + exact::text(cln::denominator(size)) + "}";
-        }
+        const std::string number = latex_ ? exact::latex(size) : exact::text(size);
         const std::string term = factor.empty() ? number : size == 1 ? factor : number + times_ + factor;
         out_ += out_.empty() ? (negative ? "-" + term : term) : (negative ? " - " : " + ") + term;
     }
@@ -84,7 +82,7 @@ std::string time_form(const Plan& plan, const plan::Table& table) {
         if (e.n != table.n || e.kappa != table.kappa) continue;
         SignedSum sum(" ", false);
         for (const plan::LeibnizTerm& t : e.leibniz[static_cast<std::size_t>(table.derivative)]) {
-            const int gamma = table.kappa + table.n + table.p - t.power - 1;
+            const int gamma = annihilator::time_exponent(t.power, table.p, {table.n, table.kappa});
             const std::string first = power_text("(t-tau)", gamma);
             const std::string second = power_text("(-tau)", t.derivative_in_s);
             std::string factor = first + (first.empty() || second.empty() ? "" : " ") + second;

@@ -16,7 +16,37 @@ const char* word(Severity severity) {
     }
     return "?";
 }
+
+/// Bytes of the UTF-8 character at the start of the text; 0 if there is none.
+std::size_t character_length(std::string_view text) {
+    const auto first = static_cast<unsigned char>(text.front());
+    const std::size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+    if (length > text.size()) return 0;
+    for (std::size_t k = 1; k < length; ++k) {
+        if ((static_cast<unsigned char>(text[k]) & 0xC0U) != 0x80U) return 0;
+    }
+    return length;
+}
+
+/// U+0000 to U+001F, U+007F to U+009F.
+bool is_control(std::string_view character) {
+    const auto last = static_cast<unsigned char>(character.back());
+    if (character.size() == 1) return last < 0x20 || last == 0x7F;
+    return character.size() == 2 && static_cast<unsigned char>(character.front()) == 0xC2 && last < 0xA0;
+}
 }  // namespace
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t most = 60;
+    std::string out = "'";
+    while (!text.empty() && out.size() <= most) {
+        const std::size_t length = character_length(text);
+        const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+        out += length == 0 || is_control(character) ? "?" : character;
+        text.remove_prefix(character.size());
+    }
+    return out + (text.empty() ? "'" : "...'");
+}
 
 std::string Diagnostic::text() const {
     std::string out = file;

@@ -2,6 +2,7 @@
 // Complaints about a user's file: where, what is wrong, what would be right. Collected, so that one run shows them all.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace algest {
@@ -24,6 +25,9 @@ struct Diagnostic {
     /// `file:line:column: error: what; right`
     std::string text() const;
 };
+
+/// A piece of the user's text in a message, in quotes: shortened, with '?' for control characters and for what is no UTF-8.
+std::string quoted(std::string_view text);
 
 class Diagnostics {
 public:

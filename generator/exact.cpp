@@ -127,6 +127,12 @@ std::string text(const Rational& value) {
     return out.str();
 }
 
+std::string latex(const Rational& value) {
+    if (is_integer(value)) return text(value);
+    const std::string fraction = "\\tfrac{" + text(cln::abs(cln::numerator(value))) + "}{" + text(cln::denominator(value)) + "}";
+    return cln::minusp(value) ? "-" + fraction : fraction;
+}
+
 Rational from_text(const std::string& text) { return Rational(text.c_str()); }
 
 std::string decimal(const Rational& value) {

@@ -28,6 +28,9 @@ bool is_integer(const Rational& value);
 /// "-1/6", "3".
 std::string text(const Rational& value);
 
+/// The same in LaTeX: "-\tfrac{1}{6}", "3".
+std::string latex(const Rational& value);
+
 /// Reads what text() wrote, of any length.
 Rational from_text(const std::string& text);
 

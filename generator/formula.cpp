@@ -263,18 +263,11 @@ std::string printed(const Formula& f, int outer) {
     return own < outer ? "(" + out + ")" : out;
 }
 
-std::string latex_number(const exact::Rational& value) {
-    const std::string plain = exact::text(value);
-    const std::size_t slash = plain.find('/');
-    if (slash == std::string::npos) return plain;
-    return "\\tfrac{" + plain.substr(0, slash) + "}{" + plain.substr(slash + 1) + "}";
-}
-
 std::string latex_printed(const Formula& f, int outer) {
     const int own = precedence(f->kind);
     std::string out;
     switch (f->kind) {
-        case Kind::number: return latex_number(f->value);
+        case Kind::number: return exact::latex(f->value);
         case Kind::name: return latex_name(f->name);
         case Kind::call: {
             if (f->name == "der") {

@@ -82,10 +82,7 @@ struct Spelling {
         return latex ? "{" + name(n) + "}^{" + std::to_string(e) + "}" : n + "^" + std::to_string(e);
     }
     std::string number(const Rational& positive) const {
-        if (latex && !exact::is_integer(positive)) {
-            return "\\tfrac{" + exact::text(cln::numerator(positive)) + "}{" + exact::text(cln::denominator(positive)) + "}";
-        }
-        return exact::text(positive);
+        return latex ? exact::latex(positive) : exact::text(positive);
     }
 };
 

@@ -153,20 +153,6 @@ bool at_line_end(const std::string& text, Position at) {
     return w.at >= text.size() || w.peek() == '\n' || w.peek() == '\r';
 }
 
-std::string quoted(std::string_view text) {
-    constexpr std::size_t most = 60;
-    std::size_t end = std::min(text.size(), most);
-    while (end < text.size() && end > 0 && is_continuation(text[end])) --end;
-    std::string out = "'";
-    for (std::size_t k = 0; k < end; ++k) {
-        const unsigned char c = static_cast<unsigned char>(text[k]);
-        const bool second_control = c == 0xC2 && k + 1 < end && static_cast<unsigned char>(text[k + 1]) < 0xA0;   // U+0080 to U+009F
-        if (second_control) ++k;
-        out += c < 0x20 || c == 0x7F || second_control ? '?' : text[k];
-    }
-    return out + (end < text.size() ? "...'" : "'");
-}
-
 std::vector<Position> places_of_string(const std::string& file_text, Position start, std::size_t value_size) {
     Walker w{file_text};
     w.skip_byte_order_mark();

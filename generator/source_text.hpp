@@ -3,7 +3,6 @@
 #pragma once
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "generator/diagnostics.hpp"
@@ -24,9 +23,6 @@ std::optional<Position> too_long_key(const std::string& text, int limit);
 Position within_line(const std::string& text, Position at);
 /// True at the end of a line and of the file.
 bool at_line_end(const std::string& text, Position at);
-
-/// A piece of the user's text in a message, in quotes: shortened, without control characters.
-std::string quoted(std::string_view text);
 
 /// For a TOML string whose token starts at `start`: the position of every byte of its value, and of its end. Knows all
 /// four kinds of TOML strings, their escapes, and that CRLF is LF in a value. `value_size` is the size of the value in bytes.

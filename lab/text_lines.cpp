@@ -18,39 +18,6 @@ int character_column(std::string_view line, std::size_t offset) {
     return column;
 }
 
-namespace {
-
-/// Bytes of the UTF-8 character at the start of the text; 0 if there is none.
-std::size_t character_length(std::string_view text) {
-    const auto first = static_cast<unsigned char>(text.front());
-    const std::size_t length = first < 0x80U   ? 1
-                               : first < 0xC2U ? 0
-                               : first < 0xE0U ? 2
-                               : first < 0xF0U ? 3
-                               : first < 0xF5U ? 4
-                                               : 0;
-    if (length > text.size()) return 0;
-    for (std::size_t k = 1; k < length; ++k) {
-        if ((static_cast<unsigned char>(text[k]) & 0xC0U) != 0x80U) return 0;
-    }
-    return length;
-}
-
-}  // namespace
-
-std::string quoted(std::string_view text) {
-    constexpr std::size_t most = 40;
-    std::string out = "'";
-    while (!text.empty() && out.size() <= most) {
-        const std::size_t length = character_length(text);
-        const auto byte = static_cast<unsigned char>(text.front());
-        const bool printable = length > 0 && byte >= 0x20U && byte != 0x7FU;
-        out += printable ? text.substr(0, length) : "?";
-        text.remove_prefix(length > 0 ? length : 1);
-    }
-    return out + (text.empty() ? "'" : "...'");
-}
-
 TextLines::TextLines(const std::string& path, Diagnostics& diagnostics) : path_(path), diagnostics_(&diagnostics) {
     std::error_code no_matter;
     if (std::filesystem::is_directory(path, no_matter)) {

@@ -18,9 +18,6 @@ constexpr std::size_t longest_line = std::size_t{1} << 20U;
 /// Column of byte `offset` of a line, counted from 1 in characters (UTF-8 code points). Cost: offset.
 int character_column(std::string_view line, std::size_t offset);
 
-/// Text of a user's file as a message may quote it: control characters and what is no UTF-8 as '?', about 40 bytes, in quotes.
-std::string quoted(std::string_view text);
-
 class TextLines {
 public:
     /// Opens the file; a complaint goes to `diagnostics`, which must live as long. Skips a UTF-8 byte-order mark.
