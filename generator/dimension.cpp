@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/dimension.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "generator/constant_value.hpp"
 #include "generator/model.hpp"
@@ -17,12 +19,7 @@ using units::Unit;
 
 struct Walk {
     const Model& model;
-    const Equation& equation;
-    Diagnostics* diagnostics;   // null: silent
-
-    void complain(const Formula& f, const std::string& what, const std::string& right) const {
-        if (diagnostics != nullptr) diagnostics->error(equation.file, equation.place(f->start), what, right);
-    }
+    std::function<void(const Formula& f, const std::string& what, const std::string& right)> complain;
 
     static Unit declared(const std::string& unit) {
         if (unit.empty()) return {};
@@ -119,14 +116,25 @@ struct Walk {
 }  // namespace
 
 void check_dimension(const Model& model, const Equation& equation, Diagnostics& diagnostics) {
-    const Walk walk{model, equation, &diagnostics};
+    const Walk walk{model, [&](const Formula& f, const std::string& what, const std::string& right) {
+                        diagnostics.error(equation.file, equation.place(f->start), what, right);
+                    }};
     const Unit left = walk.of(equation.sides.left);
     const Unit right = walk.of(equation.sides.right);
     (void)walk.alike(left, right, equation.sides.left, equation.sides.right, equation.sides.right);
 }
 
+void check_dimension(const Model& model, const Feedback& feedback, Diagnostics& diagnostics) {
+    const Walk walk{model, [&](const Formula& f, const std::string& what, const std::string& right) {
+                        diagnostics.warning(model.path, feedback.places[std::min(static_cast<std::size_t>(f->start), feedback.places.size() - 1)], what, right);
+                    }};
+    const Formula signal = std::make_shared<const formula::Node>(formula::Node{Kind::name, 0, 0, 0, feedback.signal, {}});
+    const Unit wanted = walk.of(signal);
+    (void)walk.alike(wanted, walk.of(feedback.law), signal, feedback.law, feedback.law);
+}
+
 units::Unit unit_of_equation(const Model& model, const Equation& equation) {
-    const Walk walk{model, equation, nullptr};
+    const Walk walk{model, [](const Formula&, const std::string&, const std::string&) {}};
     const Unit left = walk.of(equation.sides.left);
     return left.known() ? left : walk.of(equation.sides.right);
 }

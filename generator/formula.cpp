@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/formula.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
+
+#include "generator/suggestion.hpp"
 
 namespace algest::formula {
 
 namespace {
+
+constexpr std::array<std::string_view, 10> functions = {"sin", "cos", "tan", "exp", "log", "sqrt", "abs", "sgn", "min", "max"};
 
 struct Stop {};   // unwinds the parser after its one complaint
 
@@ -196,8 +201,10 @@ private:
         }
         if (!accept('(')) return node(Kind::name, here, here, {}, std::move(name));
         if (name != "der" && !is_function(name)) {
+            std::vector<std::string> known = {"der"};
+            known.insert(known.end(), functions.begin(), functions.end());
             fail(here, "'" + name + "' is not a function",
-                 "functions are der sin cos tan exp log sqrt abs sgn min max; write * for a product");
+                 did_you_mean(name, known) + "functions are der sin cos tan exp log sqrt abs sgn min max; write * for a product");
         }
         std::vector<Formula> arguments;
         if (!accept(')')) {
@@ -294,11 +301,7 @@ std::string latex_printed(const Formula& f, int outer) {
 
 bool is_function_of_two(std::string_view name) { return name == "min" || name == "max"; }
 
-bool is_function(std::string_view name) {
-    static constexpr std::array<std::string_view, 10> names = {"sin", "cos", "tan", "exp", "log", "sqrt", "abs", "sgn", "min", "max"};
-    for (const std::string_view n : names) if (n == name) return true;
-    return false;
-}
+bool is_function(std::string_view name) { return std::find(functions.begin(), functions.end(), name) != functions.end(); }
 
 std::optional<Formula> parse(std::string_view text, const Complain& complain) {
     try {

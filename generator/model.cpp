@@ -91,6 +91,12 @@ int Model::parameter_index(const std::string& wanted) const {
     return p == nullptr ? -1 : static_cast<int>(p - parameters.data());
 }
 
+std::vector<std::string> signal_names(const Model& model) {
+    std::vector<std::string> out;
+    for (const Signal& s : model.signals) out.push_back(s.name);
+    return out;
+}
+
 std::optional<Model> read(const std::string& path, bool strict, Diagnostics& diagnostics) {
     const auto text = read_text(path, largest_file, diagnostics);
     return text ? read_from_text(*text, path, strict, diagnostics) : std::nullopt;

@@ -114,6 +114,9 @@ struct Model {
     int parameter_index(const std::string& name) const;   ///< -1: none
 };
 
+/// Of all signals, in the order of the file.
+std::vector<std::string> signal_names(const Model& model);
+
 /// Largest orders and window that are accepted.
 constexpr int largest_order = 12;
 constexpr int largest_kappa = 8;

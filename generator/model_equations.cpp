@@ -6,6 +6,7 @@
 #include "generator/dimension.hpp"
 #include "generator/model_sections.hpp"
 #include "generator/names.hpp"
+#include "generator/suggestion.hpp"
 #include "generator/transfer.hpp"
 
 namespace algest::model {
@@ -21,10 +22,10 @@ formula::Complain complaint_at(const std::vector<Position>& places, TomlAccess& 
 }
 
 bool unknown_name(const Formula& f, const std::vector<Position>& places, Reading& reading) {
-    std::string right = "declare it under [signals], [constants] or [parameters]";
-    const auto other_case = reading.names.find(folded(f->name));
-    if (other_case != reading.names.end()) right = "did you mean " + other_case->second + "?";
-    reading.file.error(place_of(f->start, places), "unknown name '" + f->name + "'", right);
+    std::vector<std::string> declared;
+    for (const auto& [key, name] : reading.names) declared.push_back(name);
+    reading.file.error(place_of(f->start, places), "unknown name '" + f->name + "'",
+                       did_you_mean(f->name, declared) + "declare it under [signals], [constants] or [parameters]");
     return false;
 }
 
@@ -133,7 +134,7 @@ void read_law(const toml::table& t, Reading& reading) {
     if (!t.contains("signal") || !t.contains("law")) file.error(t, "[[feedback]] needs signal and law", "e.g. signal = \"u\", law = \"K*(r-y)\"");
     if (!signal || !law) return;
     f.signal = *signal;
-    if (model.signal(f.signal) == nullptr) file.error(*t.get("signal"), quoted(f.signal) + " is not a signal", "declare it under [signals]");
+    if (model.signal(f.signal) == nullptr) file.error(*t.get("signal"), quoted(f.signal) + " is not a signal", did_you_mean(f.signal, signal_names(model)) + "declare it under [signals]");
     for (const Feedback& other : model.feedback) {
         if (other.signal == f.signal) file.error(*t.get("signal"), "a second law for " + quoted(f.signal), "one law computes a signal");
     }
@@ -142,6 +143,7 @@ void read_law(const toml::table& t, Reading& reading) {
     const auto formula = formula::parse(f.law_text, complaint_at(f.places, file));
     if (!formula || !sound(*formula, f.places, reading)) return;
     f.law = *formula;
+    check_dimension(model, f, file.diagnostics());
     model.feedback.push_back(std::move(f));
 }
 

@@ -43,6 +43,24 @@ private:
     std::vector<int> row_of_;
 };
 
+/// "R", or "R/L, from which R follows": the unknown and the parameters that are computed from it.
+std::string in_the_users_words(const model::Model& model, const lumping::Lumping& lumping, int unknown) {
+    std::vector<std::string> names;
+    for (const model::Parameter& p : model.parameters) names.push_back(p.name);
+    const std::size_t k = static_cast<std::size_t>(unknown);
+    const std::string meaning = text(lumping.unknowns[k].meaning, names);
+    std::vector<std::string> followers;
+    for (std::size_t p = 0; p < names.size(); ++p) {
+        const auto& from = lumping.inverse[p];
+        const auto holds = [&](const Polynomial& side) { return !side.empty() && k < side.begin()->first.size() && uses(side, k); };
+        if (from && (holds(from->numerator) || holds(from->denominator))) followers.push_back(names[p]);
+    }
+    if (followers == std::vector<std::string>{meaning}) return meaning;
+    std::string list;
+    for (const std::string& name : followers) list += (list.empty() ? "" : ", ") + name;
+    return meaning + ", from which " + list + (followers.size() == 1 ? " follows" : " follow");
+}
+
 }  // namespace
 
 std::optional<std::vector<ChosenRow>> choose_rows(const model::Model& model, const lumping::Lumping& lumping, Diagnostics& diagnostics) {
@@ -81,11 +99,10 @@ std::optional<std::vector<ChosenRow>> choose_rows(const model::Model& model, con
     // Rows of different instants add up when they are pooled: one row of an equation may then serve all its unknowns.
     const int over = matching.first_unmatched();
     if (over >= 0 && !pooled) {
-        const lumping::Unknown& unknown = lumping.unknowns[static_cast<std::size_t>(over)];
         const std::size_t holds = static_cast<std::size_t>(std::find_if(sees.begin(), sees.end(), [&](const std::set<int>& s) { return s.count(over) > 0; }) - sees.begin());
         const model::Equation& equation = model.equations[holds];
         diagnostics.error(model.path, equation.rows.at.line > 0 ? equation.rows.at : equation.at,
-                          "the rows cannot determine " + unknown.name + ": " + std::to_string(total) + " rows for " + std::to_string(lumping.unknowns.size()) + " unknowns",
+                          "the rows cannot determine " + in_the_users_words(model, lumping, over) + ": " + std::to_string(total) + (total == 1 ? " row for " : " rows for ") + std::to_string(lumping.unknowns.size()) + " unknowns",
                           "ask for more rows of the equations that hold it, leave rows out, or pool instants with solve = \"least_squares\"");
         return std::nullopt;
     }

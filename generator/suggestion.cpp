@@ -2,8 +2,9 @@
 #include "generator/suggestion.hpp"
 
 #include <algorithm>
+#include <cctype>
 
-namespace algest::model {
+namespace algest {
 
 namespace {
 
@@ -24,23 +25,36 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return d[a.size()][b.size()];
 }
 
-}  // namespace
-
-std::string suggestion(std::string_view key, const std::vector<std::string>& known) {
-    std::string all;
-    for (const std::string& k : known) all += (all.empty() ? "" : ", ") + k;
-    if (key.size() > 40) return "keys here: " + all;
-    const std::string* closest = nullptr;
-    std::size_t least = std::max<std::size_t>(1, key.size() / 3) + 1;
-    for (const std::string& k : known) {
-        const bool one_begins_the_other = std::min(k.size(), key.size()) >= 3 && k.compare(0, key.size(), key, 0, k.size()) == 0;
-        const std::size_t d = one_begins_the_other ? 1 : distance(key, k);
-        if (d < least) {
-            closest = &k;
-            least = d;
-        }
-    }
-    return (closest == nullptr ? "" : "did you mean " + *closest + "? ") + "keys here: " + all;
+std::string small(std::string_view word) {
+    std::string out(word);
+    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return out;
 }
 
-}  // namespace algest::model
+/// 0: they differ by case alone; the beginning of a word counts as one mistake.
+std::size_t mistakes(const std::string& a, const std::string& b) {
+    const bool one_begins_the_other = a != b && std::min(a.size(), b.size()) >= 3 && b.compare(0, a.size(), a, 0, b.size()) == 0;
+    return one_begins_the_other ? 1 : distance(a, b);
+}
+
+}  // namespace
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+    constexpr std::size_t longest = 40;
+    if (word.size() > longest) return {};
+    const std::string written = small(word);
+    const std::string* nearest = nullptr;
+    bool alone = false;
+    std::size_t least = std::min(std::max<std::size_t>(1, word.size() / 3), word.size() - 1) + 1;   // never a whole new word
+    for (const std::string& k : known) {
+        const std::size_t count = mistakes(written, small(k));
+        if (nearest != nullptr && count == least) alone = false;
+        if (count >= least) continue;
+        nearest = &k;
+        least = count;
+        alone = true;
+    }
+    return alone ? "did you mean " + *nearest + "? " : std::string();
+}
+
+}  // namespace algest

@@ -5,9 +5,10 @@
 #include <string_view>
 #include <vector>
 
-namespace algest::model {
+namespace algest {
 
-/// The key of `known` that is closest to a misspelt one, and all of them.
-std::string suggestion(std::string_view key, const std::vector<std::string>& known);
+/// "did you mean sampling? " where one known word is nearer than all others and near enough, else nothing: a complaint goes on
+/// behind it. Capitals count as small letters. Cost: the product of the lengths, for each known word.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
-}  // namespace algest::model
+}  // namespace algest

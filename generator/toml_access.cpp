@@ -17,6 +17,12 @@ constexpr int most_complaints = 100;
 constexpr std::size_t most_entries = 100;   // signals, constants, parameters, equations, each
 constexpr int largest_time = 9;             // 10^+-this, s
 
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+    return out;
+}
+
 }  // namespace
 
 Position position(const toml::source_region& region) {
@@ -34,7 +40,7 @@ void TomlAccess::error(Position at, std::string what, std::string right) {
 void TomlAccess::known_keys(const toml::table& table, const std::vector<std::string>& known) {
     for (const auto& [key, node] : table) {
         if (std::find(known.begin(), known.end(), std::string(key.str())) == known.end()) {
-            error(position(key.source()), "unknown key " + quoted(key.str()), suggestion(key.str(), known));
+            error(position(key.source()), "unknown key " + quoted(key.str()), did_you_mean(key.str(), known) + "keys here: " + joined(known, ", "));
         }
     }
 }
@@ -177,12 +183,9 @@ std::optional<Rational> TomlAccess::duration(const toml::table& table, std::stri
 std::optional<std::size_t> TomlAccess::choice(const toml::table& table, std::string_view key, const std::vector<std::string>& words) {
     const auto text = string(table, key);
     if (!text) return std::nullopt;
-    std::string all;
-    for (std::size_t k = 0; k < words.size(); ++k) {
-        if (words[k] == *text) return k;
-        all += (all.empty() ? "" : " | ") + words[k];
-    }
-    error(*table.get(key), quoted(*text) + " is no " + std::string(key), std::string(key) + " is one of " + all);
+    const auto found = std::find(words.begin(), words.end(), *text);
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+    error(*table.get(key), quoted(*text) + " is no " + std::string(key), did_you_mean(*text, words) + std::string(key) + " is one of " + joined(words, " | "));
     return std::nullopt;
 }
 

@@ -8,7 +8,7 @@
 
 #include "generator/model.hpp"
 #include "generator/names.hpp"
-#include "generator/source_text.hpp"
+#include "generator/suggestion.hpp"
 
 namespace algest::model {
 
@@ -111,9 +111,9 @@ private:
 
     bool signals_exist() {
         std::set<std::string> seen = {transfer_.output};
-        if (model_.signal(transfer_.output) == nullptr) fail(transfer_.output_at, quoted(transfer_.output) + " is not a signal", "declare it under [signals], or name the output");
+        if (model_.signal(transfer_.output) == nullptr) fail(transfer_.output_at, quoted(transfer_.output) + " is not a signal", did_you_mean(transfer_.output, signal_names(model_)) + "declare it under [signals], or name the output");
         for (const TransferInput& input : transfer_.inputs) {
-            if (model_.signal(input.signal) == nullptr) fail(input.at, quoted(input.signal) + " is not a signal", "declare it under [signals], or name the input");
+            if (model_.signal(input.signal) == nullptr) fail(input.at, quoted(input.signal) + " is not a signal", did_you_mean(input.signal, signal_names(model_)) + "declare it under [signals], or name the input");
             else if (!seen.insert(input.signal).second) fail(input.at, quoted(input.signal) + " stands twice in the equation", "name it once, as output or as input");
         }
         return !failed_;

@@ -220,6 +220,7 @@ KEYS = [
     ("misspelt key of an input", inputs('"w"', '"w"\n▸knwon = {}'), "did you mean known?"),
     ("misspelt key of the estimator", estimator("▸forgeting = 1\n"), "did you mean forgetting?"),
     ("misspelt key of feedback", feedback('signal = "v"\nlaw = "i"\n▸gain = 1\n'), "unknown key 'gain'"),
+    ("key as near to one as to another", coil('R = { ', 'R = { ▸mix = 1, '), "unknown key 'mix'; keys here"),
     ("capital letter", coil('R = { unit', 'R = { ▸Unit'), "did you mean unit?"),
     ("a section of a later version", COIL + "▸[discrete]\n", "not supported by this version"),
     ("no name", "▸" + coil('name = "m"', ""), "no name"),
@@ -298,14 +299,15 @@ VALUES = [
     ("row 41", COIL + "rows = [1, ▸41]\n", "from 1 to 40"),
     ("row with a point", COIL + "rows = [▸1.5, 2]\n", "from 1 to 40"),
     ("row of 2^63 - 1", COIL + "rows = ▸9223372036854775807\n", "from 1 to 40"),
-    ("fewer rows than unknowns", COIL + "rows = ▸1\n", "1 rows for 2 unknowns"),
-    ("fewer rows than unknowns in the second equation", PLAIN + '[[equation]]\node = "der(y) = p*u + q*x"\nrows = ▸1\n[parameters.p]\n[parameters.q]\n', "3 rows for 4 unknowns"),
+    ("fewer rows than unknowns", COIL + "rows = ▸1\n", "cannot determine R/L, from which R follows: 1 row for 2 unknowns"),
+    ("fewer rows than unknowns in the second equation", PLAIN + '[[equation]]\node = "der(y) = p*u + q*x"\nrows = ▸1\n[parameters.p]\n[parameters.q]\n', "cannot determine q: 3 rows for 4 unknowns"),
     ("scale of zero", COIL + "scale = ▸0\n", "not positive"),
     ("ode that is a number", coil('"L*der(i) = gain*v - R*i"', "▸3"), "not a text"),
     ("two equations of a name", COIL + 'name = "a"\n[[equation]]\nname = ▸"a"\node = "i = i"\n', "two equations are named 'a'"),
     ("unknown functional", estimator('functional = ▸"magic"\n'), "annihilator | discrete | derivative | average"),
     ("functional of a later version", estimator('functional = ▸"average"\n'), "not supported by this version"),
     ("unknown solver", estimator('solve = ▸"cholesky"\n'), "square | robust | least_squares | elimination"),
+    ("misspelt solver", estimator('solve = ▸"least_sqaures"\n'), "did you mean least_squares?"),
     ("solver of a later version", estimator('solve = ▸"elimination"\n'), "not supported by this version"),
     ("form 2", estimator("form = ▸2\n"), "not supported by this version"),
     ("form 3", estimator("form = ▸3\n"), "whole number from 1 to 2"),
@@ -381,6 +383,11 @@ NAMES = [
 
 FORMULAS = [
     ("unknown name", ode("der(x) = a*x + b*▸z"), "unknown name 'z'"),
+    ("misspelt name", coil_ode("L*der(i) = ▸gian*v - R*i"), "did you mean gain?"),
+    ("name as near to one as to another", changed(PLAIN, "a = {}", "i_d = {}\ni_q = {}", "a*x + b*u", "i_d*x + i_q*y + ▸i_x*b*u"), "'i_x'; declare it"),
+    ("name of one letter", ode("der(x) = a*x + b*▸w"), "'w'; declare it"),
+    ("misspelt function", ode("der(x) = a*x + b*▸sine(u)"), "did you mean sin?"),
+    ("function of another language", ode("der(x) = a*x + b*▸integral(u)"), "is not a function; functions are der"),
     ("unknown name that differs by case", ode("der(x) = ▸A*x + b*u"), "did you mean a?"),
     ("unknown names on both sides", ode("der(▸z) = a*x + b*▸w"), "unknown name 'w'"),
     ("function without parentheses", ode("der(x) = a*x + b*▸sin"), "unknown name 'sin'"),
@@ -561,6 +568,7 @@ TRANSFERS = [
     ("no signal y", changed(TRANSFER, "y = {", "q = {", "[transfer]", "▸[transfer]"), "'y' is not a signal"),
     ("second input that is not a signal", inputs('signal = "w"', 'signal = ▸"z"'), "'z' is not a signal"),
     ("output as input", transfer("n = 2", 'n = 2\ninput = ▸"y"'), "'y' stands twice"),
+    ("misspelt input", transfer("u = {", "force = {", "n = 2", 'n = 2\ninput = ▸"froce"'), "did you mean force?"),
     ("an input twice", inputs('signal = "w"', 'signal = ▸"u"'), "'u' stands twice"),
     ("input that is a number", transfer("n = 2", "n = 2\ninput = ▸3"), "not a text"),
     ("no input", transfer("n = 2", "n = 2\ninput = ▸[]"), "no input"),
@@ -655,6 +663,19 @@ class Malformed(ModelCase):
             found = complaints(err, "warning")
             self.assertEqual([place[:2] for place in found], places)
             self.assertIn("rad/s", found[0][2])
+
+    def test_a_law_of_another_unit_than_its_signal_gets_a_warning(self):
+        for law, words in (("▸i", "'v' [V] and 'i' [A] differ in dimension"), ("R*i + ▸i", "'R*i' [V] and 'i' [A] differ"), ("R*i*exp(▸v)", "the argument of exp has the unit [V]"), ("R*i", None), ("gain*R*i - v", None)):
+            content, places = without_marks(feedback(f'signal = "v"\nlaw = "{law}"\n'))
+            self.write(content)
+            code, _, err, _ = self.run_algest("check", "m.toml")
+            with self.subTest(law):
+                self.assertEqual(code, 0, err)
+                found = complaints(err, "warning")
+                self.assertEqual(len(found), 0 if words is None else 1, err)
+                if words:
+                    self.assertEqual([place[:2] for place in found], places)
+                    self.assertIn(words, found[0][2])
 
     def test_json_has_the_same_places(self):
         content, places = without_marks(coil('name = "m"', 'name = ▸"M"', "gain*v", "gain*▸z"))
