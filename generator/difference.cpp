@@ -13,10 +13,12 @@ namespace algest::generator {
 
 namespace {
 
+/// Where the last line has no end it is another line than with one, and shows as in diff.
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> out;
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) out.push_back(line);
+    if (!text.empty() && text.back() != '\n') out.back() += "\n\\ No newline at end of file";
     return out;
 }
 

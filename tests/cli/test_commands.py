@@ -142,6 +142,24 @@ class Generate(CommandLine):
         value = self.algest_json("generate", "rl.toml", "--check", exit_code=1)
         self.assertEqual([d["path"] for d in value["models"][0]["differences"]], ["generated/rl/rl.hpp"])
 
+    def test_check_shows_a_last_line_without_end_as_diff_does(self):
+        self.algest("generate", "rl.toml")
+        for file in self.FILES:
+            path = self.folder / "generated" / file
+            whole = path.read_bytes()
+            path.write_bytes(whole[:-1])
+            out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
+            if file.endswith("_tables.hpp"):
+                self.assertIn("0 rows of weights changed", out)
+                self.assertIn("1 other lines changed", out)
+            else:
+                with open(self.folder / "whole", "wb") as copy:
+                    copy.write(whole)
+                diff = subprocess.run(["diff", "-u", path, self.folder / "whole"], stdout=subprocess.PIPE).stdout.decode()
+                self.assertIn("\\ No newline at end of file", diff)
+                self.assertEqual(out.splitlines()[2:], diff.splitlines()[2:])
+            path.write_bytes(whole)
+
     def test_options_reach_the_estimator(self):
         self.algest("generate", "rl.toml", "--scalar", "float")
         self.assertIn("float", (self.folder / "generated/rl/rl.hpp").read_text())
