@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "generator/render.hpp"
+#include "lab/html_text.hpp"
+#include "lab/quantity.hpp"
+#include "lab/report_figures.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+using generator::Data;
+using generator::DataList;
+
+constexpr double at_the_floor = 1.2;           ///< error over floor that is called the floor
+constexpr std::size_t most_evidence = 40;      ///< rows of the table
+
+/// Every text goes into the page through here.
+void set(Data& data, const std::string& name, const std::string& text) { data.set(name, html_text(text)); }
+
+Data entry(const std::string& name, const std::string& text) {
+    Data data;
+    set(data, name, text);
+    return data;
+}
+
+void set_list(Data& data, const std::string& name, DataList list) {
+    data.set("has_" + name, !list.empty());
+    data.set(name, generator::listed(std::move(list)));
+}
+
+std::string unit_text(const std::string& unit) { return unit.empty() ? "unknown" : unit; }
+
+void set_quantity(Data& data, const std::string& prefix, const NamedParameter& p) {
+    const Quantity q = quantity(p.value, p.sd);
+    set(data, prefix + "value", q.value);
+    set(data, prefix + "sd", q.sd);
+    data.set(prefix + "has_sd", !q.sd.empty());
+    data.set(prefix + "unseen", !std::isfinite(p.sd));
+    data.set(prefix + "chosen_constant", p.sd == 0);
+    set(data, prefix + "exponent", q.exponent);
+    data.set(prefix + "has_exponent", !q.exponent.empty());
+}
+
+Data parameter_data(const NamedParameter& p) {
+    Data data;
+    set(data, "parameter", p.name);
+    set(data, "unit", unit_text(p.unit));
+    set_quantity(data, "", p);
+    const double share = std::abs(p.sd / p.value);
+    data.set("has_share", std::isfinite(share) && p.sd > 0);
+    set(data, "share", fmt::format("{:.2g}", 100 * share));
+    return data;
+}
+
+/// A word that a shell takes as it is.
+std::string shell_word(const std::string& text) {
+    const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string("/._-+=:,@%").find(c) != std::string::npos;
+    });
+    if (plain) return text;
+    std::string out = "'";
+    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+/// Draws figures until the first that cannot be for want of gnuplot; says so once.
+class Figures {
+public:
+    Figures(const Draw& draw, Diagnostics& diagnostics) : draw_(draw), diagnostics_(diagnostics) {}
+
+    /// Sets `drawn` and `svg`.
+    void set(Data& data, const Figure& figure) {
+        data.set("drawn", false);
+        data.set("svg", std::string());
+        data.set("panels", std::to_string(figure.panels.size()));
+        if (missing_) return;
+        const Drawing drawing = draw_(gnuplot_script(figure));
+        if (drawing.outcome == Drawing::Outcome::not_installed) {
+            missing_ = true;
+            diagnostics_.warning("gnuplot", {}, "is not installed: the report has no figures", "apt-get install gnuplot-nox");
+        } else if (drawing.outcome == Drawing::Outcome::failed) {
+            failed_ = true;
+            diagnostics_.warning("gnuplot", {}, "cannot draw '" + figure.title + "': " + drawing.complaint);
+        } else {
+            data.set("drawn", true);
+            data.set("svg", inline_svg(drawing.svg, fmt::format("figure{}_", ++count_), figure.title));
+        }
+    }
+
+    bool missing() const { return missing_; }
+    bool failed() const { return failed_; }
+
+private:
+    const Draw& draw_;
+    Diagnostics& diagnostics_;
+    int count_ = 0;
+    bool missing_ = false;
+    bool failed_ = false;
+};
+
+/// Error over floor; infinite without a floor.
+double over_floor(double error, const OutputGap& output) { return output.floor > 0 ? error / output.floor : std::numeric_limits<double>::infinity(); }
+
+/// The output whose error was furthest above its floor; null without outputs.
+const OutputGap* worst(const Discovery& d) {
+    const auto found = std::max_element(d.outputs.begin(), d.outputs.end(), [](const OutputGap& a, const OutputGap& b) {
+        const double x = over_floor(a.before, a), y = over_floor(b.before, b);
+        return std::isfinite(x) || std::isfinite(y) ? x < y : a.before < b.before;
+    });
+    return found == d.outputs.end() ? nullptr : &*found;
+}
+
+/// What the four cards at the head say of the gap: its size at the worst output.
+void set_gap(Data& page, const Discovery& d) {
+    const OutputGap* const output = worst(d);
+    page.set("has_gap", output != nullptr);
+    const OutputGap gap = output != nullptr ? *output : OutputGap{"", 0, 0, 0};
+    const bool floored = gap.floor > 0;
+    page.set("gap_floored", floored);
+    set(page, "gap_signal", gap.signal);
+    set(page, "gap_before", three_digits(floored ? gap.before / gap.floor : gap.before));
+    set(page, "gap_after", three_digits(floored ? gap.after / gap.floor : gap.after));
+    const double factor = gap.before / gap.after;
+    page.set("gap_has_factor", std::isfinite(factor) && factor >= 1.05);
+    set(page, "gap_factor", three_digits(factor));
+    page.set("gap_was_at_floor", output != nullptr && floored && gap.before < at_the_floor * gap.floor);
+    page.set("gap_is_at_floor", output != nullptr && floored && std::all_of(d.outputs.begin(), d.outputs.end(), [](const OutputGap& o) { return o.after < at_the_floor * o.floor; }));
+}
+
+/// How far behind the chosen effect the best one comes that was not chosen.
+void set_runner_up(Data& page, const Discovery& d) {
+    const Evidence* chosen = nullptr;
+    const Evidence* next = nullptr;
+    for (const Evidence& e : d.evidence) if (e.chosen && chosen == nullptr) chosen = &e;
+    for (const Evidence& e : d.evidence) {
+        if (chosen == nullptr || e.chosen || e.step != chosen->step || !std::isfinite(e.validation)) continue;
+        if (next == nullptr || e.validation < next->validation) next = &e;
+    }
+    const bool known = chosen != nullptr && next != nullptr && chosen->validation > 0;
+    page.set("has_runner_up", known);
+    set(page, "runner_up", known ? next->effect : "");
+    set(page, "runner_up_factor", known ? three_digits(next->validation / chosen->validation) : "");
+    page.set("has_strength", chosen != nullptr);
+    set(page, "strength", chosen != nullptr ? three_digits(chosen->strength) : "");
+}
+
+DataList effects_data(const Discovery& d) {
+    DataList list;
+    for (const NamedEffect& effect : d.effects) {
+        Data data;
+        set(data, "effect", effect.name);
+        set(data, "equation", effect.equation);
+        set(data, "term", effect.term);
+        set(data, "summary", effect.summary);
+        data.set("has_summary", !effect.summary.empty());
+        set(data, "shows", effect.shows);
+        data.set("has_shows", !effect.shows.empty());
+        DataList parameters;
+        for (const NamedParameter& p : effect.parameters) parameters.push_back(parameter_data(p));
+        set_list(data, "parameters", parameters);
+        list.push_back(data);
+    }
+    return list;
+}
+
+DataList alternatives_data(const Discovery& d) {
+    DataList list;
+    for (const auto& alternative : d.alternatives) list.push_back(entry("alternative", fmt::format("{}", fmt::join(alternative, " and "))));
+    return list;
+}
+
+DataList texts_data(const std::string& name, const std::vector<std::string>& texts) {
+    DataList list;
+    for (const std::string& text : texts) list.push_back(entry(name, text));
+    return list;
+}
+
+DataList gaps_data(const Discovery& d) {
+    DataList list;
+    for (const OutputGap& output : d.outputs) {
+        Data data;
+        set(data, "signal", output.signal);
+        set(data, "before", three_digits(output.before));
+        set(data, "after", three_digits(output.after));
+        set(data, "floor", output.floor > 0 ? three_digits(output.floor) : "-");
+        set(data, "before_over", three_digits(over_floor(output.before, output)));
+        set(data, "after_over", three_digits(over_floor(output.after, output)));
+        data.set("closed", output.floor > 0 && output.after < at_the_floor * output.floor);
+        list.push_back(data);
+    }
+    return list;
+}
+
+DataList tests_data(const Discovery& d, const model::Model& model, const Recording& recording, Figures& figures) {
+    DataList list;
+    for (const OutputGap& output : d.outputs) {
+        const auto figure = test_figure(d, model, recording, output);
+        if (!figure) continue;
+        Data data;
+        set(data, "signal", output.signal);
+        set(data, "unit", unit_text(model.signal(output.signal)->unit));
+        data.set("has_noise", figure->noise > 0);
+        set(data, "noise", three_digits(figure->noise));
+        data.set("detail", figure->detail);
+        data.set("before_diverges", figure->before_diverges);
+        data.set("after_diverges", figure->after_diverges);
+        figures.set(data, figure->figure);
+        list.push_back(data);
+    }
+    return list;
+}
+
+/// The equations' residuals over time, or against what explains them.
+template <typename MakeFigure>
+DataList residuals_data(const Discovery& d, Figures& figures, const MakeFigure& make_figure) {
+    DataList list;
+    for (const EquationResidual& residual : d.residuals) {
+        const std::optional<Figure> figure = make_figure(residual);
+        if (!figure) continue;
+        Data data;
+        set(data, "equation", residual.equation);
+        set(data, "unit", unit_text(residual.unit));
+        set(data, "signal", residual.signal);
+        data.set("has_noise", std::isfinite(residual.noise) && residual.noise > 0);
+        set(data, "noise", three_digits(residual.noise));
+        data.set("has_after", residual.after.size() == residual.before.size());
+        data.set("has_law", !residual.law.empty());
+        figures.set(data, *figure);
+        list.push_back(data);
+    }
+    return list;
+}
+
+DataList where_data(const Discovery& d) {
+    DataList list;
+    for (const Where& w : d.where) {
+        Data data;
+        set(data, "equation", w.equation);
+        set(data, "share", fmt::format("{:.1f}", 100 * w.share));
+        set(data, "bar", fmt::format("{:.1f}", std::isfinite(w.share) ? std::clamp(100 * w.share, 0.0, 100.0) : 0.0));
+        set(data, "from_s", fmt::format("{:.4g}", w.from_s));
+        set(data, "to_s", fmt::format("{:.4g}", w.to_s));
+        set(data, "region", w.region);
+        list.push_back(data);
+    }
+    return list;
+}
+
+DataList evidence_data(const Discovery& d) {
+    DataList list;
+    for (const Evidence& e : d.evidence) {
+        if (list.size() >= most_evidence && !e.chosen && !e.rival) continue;
+        Data data;
+        set(data, "step", std::to_string(e.step));
+        set(data, "effect", e.effect);
+        set(data, "equation", e.equation);
+        set(data, "term", e.term);
+        set(data, "strength", three_digits(e.strength));
+        set(data, "validation", three_digits(e.validation));
+        set(data, "improvement", three_digits(e.improvement));
+        data.set("chosen", e.chosen);
+        data.set("rival", e.rival && !e.chosen);
+        data.set("rejected", !e.rival && !e.chosen && std::isfinite(e.validation));
+        data.set("not_fitted", !e.rival && !e.chosen && !std::isfinite(e.validation));
+        list.push_back(data);
+    }
+    return list;
+}
+
+/// Both lists by name: first those of the nominal model, then what the effects bring.
+DataList parameters_data(const Discovery& d) {
+    const auto named = [](const std::vector<NamedParameter>& list, const std::string& name) {
+        const auto found = std::find_if(list.begin(), list.end(), [&](const NamedParameter& p) { return p.name == name; });
+        return found == list.end() ? nullptr : &*found;
+    };
+    std::vector<const NamedParameter*> order;
+    for (const NamedParameter& p : d.parameters_before) order.push_back(&p);
+    for (const NamedParameter& p : d.parameters_after) if (named(d.parameters_before, p.name) == nullptr) order.push_back(&p);
+    DataList list;
+    for (const NamedParameter* p : order) {
+        const NamedParameter nothing{"", "", std::numeric_limits<double>::quiet_NaN(), 0};
+        const NamedParameter* const before = named(d.parameters_before, p->name);
+        const NamedParameter* const after = named(d.parameters_after, p->name);
+        Data data;
+        set(data, "parameter", p->name);
+        set(data, "unit", unit_text(p->unit));
+        data.set("has_before", before != nullptr);
+        data.set("has_after", after != nullptr);
+        data.set("new", before == nullptr);
+        set_quantity(data, "before_", before != nullptr ? *before : nothing);
+        set_quantity(data, "after_", after != nullptr ? *after : nothing);
+        const double change = before != nullptr && after != nullptr ? 100 * (after->value - before->value) / std::abs(before->value) : std::numeric_limits<double>::quiet_NaN();
+        data.set("has_change", std::isfinite(change));
+        set(data, "change", fmt::format("{:+.1f}", std::isfinite(change) ? change : 0.0));
+        list.push_back(data);
+    }
+    return list;
+}
+
+DataList patch_data(const std::string& patch) {
+    DataList list;
+    std::size_t begin = 0;
+    while (begin < patch.size()) {
+        const std::size_t end = std::min(patch.find('\n', begin), patch.size());
+        const std::string line = patch.substr(begin, end - begin);
+        const bool name = line.compare(0, 4, "+++ ") == 0 || line.compare(0, 4, "--- ") == 0;
+        Data data = entry("line", line);
+        data.set("kind", std::string(name ? "name" : line[0] == '+' ? "added" : line[0] == '-' ? "removed" : line[0] == '@' ? "place" : "kept"));
+        list.push_back(data);
+        begin = end + 1;
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string report_html(const Discovery& discovery, const model::Model& model, const Recording& recording, const ReportFiles& files, const Draw& draw,
+                        Diagnostics& diagnostics) {
+    Figures figures(draw, diagnostics);
+    Data page;
+    page.set("colour_measured", std::string(colour::measured));
+    page.set("colour_before", std::string(colour::before));
+    page.set("colour_after", std::string(colour::after));
+    page.set("colour_law", std::string(colour::law));
+    set(page, "model_name", model.name);
+    set(page, "model_summary", model.summary);
+    page.set("has_model_summary", !model.summary.empty());
+    set(page, "model_file", files.model);
+    set(page, "recording_file", files.recording);
+    set(page, "samples", std::to_string(recording.samples()));
+    set(page, "period", fmt::format("{:.6g}", recording.period));
+    set(page, "train_from", fmt::format("{:.6g}", discovery.train_from_s));
+    set(page, "train_to", fmt::format("{:.6g}", discovery.train_to_s));
+    set(page, "test_from", fmt::format("{:.6g}", discovery.test_from_s));
+    set(page, "test_to", fmt::format("{:.6g}", discovery.test_to_s));
+
+    set(page, "verdict", name(discovery.verdict));
+    for (const Verdict v : {Verdict::named, Verdict::ambiguous, Verdict::none, Verdict::unknown}) page.set(name(v), discovery.verdict == v);
+    page.set("has_after", !discovery.effects.empty());
+    page.set("several_effects", discovery.effects.size() > 1);
+    set_list(page, "effects", effects_data(discovery));
+    set_list(page, "alternatives", alternatives_data(discovery));
+    set_list(page, "experiments", texts_data("experiment", discovery.experiments));
+    set_list(page, "doubts", texts_data("doubt", discovery.doubts));
+    set(page, "doubt_count", std::to_string(discovery.doubts.size()));
+    page.set("several_doubts", discovery.doubts.size() > 1);
+    set_gap(page, discovery);
+    set_runner_up(page, discovery);
+    set_list(page, "gaps", gaps_data(discovery));
+    set_list(page, "tests", tests_data(discovery, model, recording, figures));
+    set_list(page, "times", residuals_data(discovery, figures, [&](const EquationResidual& r) { return time_figure(discovery, r); }));
+    set_list(page, "laws", residuals_data(discovery, figures, [](const EquationResidual& r) { return law_figure(r); }));
+    set_list(page, "where", where_data(discovery));
+    set_list(page, "evidence", evidence_data(discovery));
+    set(page, "evidence_left_out", std::to_string(discovery.evidence.size() > most_evidence ? discovery.evidence.size() - most_evidence : 0));
+    page.set("evidence_is_cut", discovery.evidence.size() > most_evidence);
+    set_list(page, "parameters", parameters_data(discovery));
+    set_list(page, "patch", patch_data(files.patch));
+    page.set("no_gnuplot", figures.missing());
+    page.set("figure_failed", figures.failed());
+
+    const std::string amended = files.amended.empty() ? files.model : files.amended;
+    const std::string out = files.directory.empty() ? "." : files.directory;
+    page.set("is_amended", !files.amended.empty());
+    set(page, "amended_file", files.amended);
+    set(page, "model_word", shell_word(files.model));
+    set(page, "recording_word", shell_word(files.recording));
+    set(page, "amended_word", shell_word(amended));
+    set(page, "patch_word", shell_word(files.patch_file));
+    set(page, "directory_word", shell_word(out));
+    set(page, "estimator_word", shell_word(out + "/estimator"));
+    set(page, "estimates_word", shell_word(out + "/estimates.csv"));
+    page.set("no_window", !model.window.has_value());
+    return generator::render("report/discover.html.mustache", page);
+}
+
+}  // namespace algest::lab
