@@ -14,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "generator/generate.hpp"
 #include "generator/source_text.hpp"
+#include "lab/report.hpp"
 #include "lab/simulate.hpp"
 #include "lab/write_file.hpp"
 
@@ -53,7 +54,7 @@ ordered_json effect_json(const lab::NamedEffect& effect) {
     return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", std::move(parameters)}};
 }
 
-ordered_json discovery_json(const lab::Discovery& d, const std::string& model_file, const std::string& patch_file) {
+ordered_json discovery_json(const lab::Discovery& d, const std::string& model_file, const std::string& patch_file, const std::string& report_file) {
     ordered_json out;
     out["verdict"] = lab::name(d.verdict);
     out["effects"] = ordered_json::array();
@@ -66,11 +67,11 @@ ordered_json discovery_json(const lab::Discovery& d, const std::string& model_fi
     for (const auto& o : d.outputs) out["outputs"].push_back({{"signal", o.signal}, {"nrmse_before", o.before}, {"nrmse_after", o.after}, {"noise_floor", o.floor}});
     out["model"] = model_file.empty() ? ordered_json(nullptr) : ordered_json(model_file);
     out["patch"] = patch_file.empty() ? ordered_json(nullptr) : ordered_json(patch_file);
-    out["report"] = nullptr;
+    out["report"] = report_file;
     return out;
 }
 
-std::string discovery_text(const lab::Discovery& d) {
+std::string discovery_text(const lab::Discovery& d, const std::string& report_file) {
     std::string out = fmt::format("verdict: {}\n", lab::name(d.verdict));
     for (const auto& e : d.effects) {
         out += fmt::format("  {} in {}: {}\n", e.name, e.equation, e.term);
@@ -78,10 +79,16 @@ std::string discovery_text(const lab::Discovery& d) {
     }
     for (const auto& a : d.alternatives) out += fmt::format("  the data allow: {}\n", fmt::join(a, ", "));
     for (const auto& e : d.experiments) out += fmt::format("  to tell: {}\n", e);
+    for (const auto& e : d.doubts) out += fmt::format("  doubt: {}\n", e);
+    if (!d.evidence.empty()) out += fmt::format("\n{:<4} {:<22} {:<28} {:>12} {:>14} {:>12}\n", "step", "effect", "equation", "strength [1]", "validation [1]", "gain [1]");
+    for (const auto& e : d.evidence) {
+        out += fmt::format("{:<4} {:<22} {:<28} {:>12.3g} {:>14.4g} {:>12.3g}{}\n", e.step, e.effect, e.equation, e.strength, e.validation, e.improvement, e.chosen ? "  chosen" : e.rival ? "  rival" : "");
+    }
     out += "\nwhere the model was off (share of the gap)\n";
     for (const auto& w : d.where) out += fmt::format("  {:5.1f} %  {}, {:.4g} s to {:.4g} s, {}\n", 100 * w.share, w.equation, w.from_s, w.to_s, w.region);
     out += fmt::format("\n{:<12} {:>12} {:>12} {:>12}\n", "signal", "before [1]", "after [1]", "floor [1]");
     for (const auto& o : d.outputs) out += fmt::format("{:<12} {:>12.4g} {:>12.4g} {:>12.4g}\n", o.signal, o.before, o.after, o.floor);
+    out += fmt::format("\nreport: {}\n", report_file);
     return out;
 }
 
@@ -122,10 +129,16 @@ int discover(const DiscoverOptions& options) {
                   lab::write_file(model_file, found->model_text, diagnostics);
         if (written && options.apply) written = lab::write_file(options.model, found->model_text, diagnostics);
     }
+    const std::string report_file = (directory / "report.html").string();
+    if (written) {
+        const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
+        const lab::ReportFiles files{options.model, options.recording, options.directory, model_file, patch_file, patch};
+        written = lab::write_file(report_file, lab::report_html(*found, *model, *recording, files, lab::gnuplot, diagnostics), diagnostics);
+    }
     if (!written) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);
-    if (options.json) print_json(discovery_json(*found, model_file, patch_file));
-    else print(discovery_text(*found));
+    if (options.json) print_json(discovery_json(*found, model_file, patch_file, report_file));
+    else print(discovery_text(*found, report_file));
     return exit_done;
 }
 
