@@ -9,6 +9,7 @@
 
 #include "generator/constant_value.hpp"
 #include "generator/ginac_exact.hpp"
+#include "generator/normal_form.hpp"
 
 namespace algest::equation {
 
@@ -32,7 +33,7 @@ struct Contents {
 class Builder {
 public:
     Builder(const model::Model& model, const model::Equation& equation, Diagnostics& diagnostics)
-        : model_(model), equation_(equation), diagnostics_(diagnostics) {
+        : model_(model), equation_(equation), diagnostics_(diagnostics), normal_forms_(model) {
         for (const model::Parameter& p : model.parameters) parameters_.emplace_back(p.name);
     }
 
@@ -157,17 +158,23 @@ private:
              "declare it under [constants], or rewrite the term as a product of parameters and signals");
     }
 
-    /// The symbol of an atom; equal texts are one atom.
+    /// The symbol of an atom, or of 1/atom. What has one normal form is one atom, a multiple of it a multiple of its symbol.
     ex symbol(const Atom& atom, bool reciprocal) {
-        auto found = std::find_if(atoms_.begin(), atoms_.end(), [&](const Atom& a) { return a.text == atom.text; });
-        if (found == atoms_.end()) {
+        const NormalForm form = normal_forms_.of(atom.formula);
+        if (cln::zerop(form.factor)) {
+            if (reciprocal) fail(atom.formula, "division by zero", "remove the term");
+            return 0;
+        }
+        std::size_t index = 0;
+        while (index < atoms_.size() && (atoms_[index].kind != atom.kind || forms_[index].number != form.number)) ++index;
+        if (index == atoms_.size()) {
             atoms_.push_back(atom);
+            forms_.push_back(form);
             symbols_.emplace_back("x" + std::to_string(atoms_.size()));
             reciprocals_.emplace_back("r" + std::to_string(atoms_.size()));
-            found = atoms_.end() - 1;
         }
-        const std::size_t index = static_cast<std::size_t>(found - atoms_.begin());
-        return reciprocal ? reciprocals_[index] : symbols_[index];
+        const ex multiple = to_ginac(form.factor / forms_[index].factor);
+        return reciprocal ? ex(reciprocals_[index] / multiple) : ex(multiple * symbols_[index]);
     }
 
     ex function_atom(const Formula& f, bool reciprocal) {
@@ -330,7 +337,9 @@ private:
     const model::Equation& equation_;
     Diagnostics& diagnostics_;
     std::vector<GiNaC::symbol> parameters_;
+    NormalForms normal_forms_;
     std::vector<Atom> atoms_;
+    std::vector<NormalForm> forms_;   // of the atoms
     std::vector<GiNaC::symbol> symbols_;
     std::vector<GiNaC::symbol> reciprocals_;
 };

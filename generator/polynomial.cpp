@@ -8,7 +8,6 @@
 
 namespace algest {
 
-using exact::Integer;
 using exact::Rational;
 
 Polynomial constant(const Rational& value, std::size_t variables) {
@@ -58,17 +57,6 @@ bool is_constant(const Polynomial& a) { return total_degree(a) == 0; }
 
 bool uses(const Polynomial& a, std::size_t k) {
     return std::any_of(a.begin(), a.end(), [&](const auto& term) { return term.first[k] != 0; });
-}
-
-Rational content(const Polynomial& a) {
-    Integer numerators = 0;
-    Integer denominators = 1;
-    for (const auto& [exponents, c] : a) {
-        numerators = cln::gcd(numerators, cln::numerator(c));
-        denominators = cln::lcm(denominators, cln::denominator(c));
-    }
-    const Rational size = Rational(numerators) / denominators;
-    return cln::minusp(a.begin()->second) ? -size : size;
 }
 
 namespace {

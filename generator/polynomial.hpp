@@ -24,8 +24,18 @@ int total_degree(const Polynomial& a);
 bool is_constant(const Polynomial& a);
 /// True if variable k occurs.
 bool uses(const Polynomial& a, std::size_t k);
-/// The rational c for which a / c has coprime integer coefficients, the first positive. a must not be zero.
-exact::Rational content(const Polynomial& a);
+/// The rational c for which a / c has coprime integer coefficients, the first positive. a: a map to coefficients, not empty.
+template <class Terms>
+exact::Rational content(const Terms& a) {
+    exact::Integer numerators = 0;
+    exact::Integer denominators = 1;
+    for (const auto& [key, c] : a) {
+        numerators = cln::gcd(numerators, cln::numerator(c));
+        denominators = cln::lcm(denominators, cln::denominator(c));
+    }
+    const exact::Rational size = exact::Rational(numerators) / denominators;
+    return cln::minusp(a.begin()->second) ? -size : size;
+}
 
 /// "a1*R - 3*L^2" in the names of the variables; "0" for zero.
 std::string text(const Polynomial& a, const std::vector<std::string>& names);

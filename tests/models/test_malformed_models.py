@@ -521,6 +521,7 @@ MATHEMATICS = [
     ("products that outnumber the parameters", changed(PLAIN, '"der(x) = a*x + b*u"', '▸"der(x) = a*x + b*u + a*b*y"'), "because of the term"),
     ("a square that cannot be undone", changed(PLAIN, '"der(x) = a*x + b*u"', '▸"der(x) = a^2*x + b*u"'), "cannot be solved for a"),
     ("division by what cancels", ode("der(x) = a*x + b*u + y/▸(a - a)"), "division by zero"),
+    ("division by signals that cancel", ode("der(x) = a*x + b*u/▸(y + u - u - y)"), "division by zero"),
     ("division by what cancels once it is multiplied out", ode("der(x) = a*x + b*u + y*▸((a + b)^2 - a^2 - 2*a*b - b^2)^-1"), "division by zero"),
     ("many denominators", changed(PLAIN, "b = {}", "b = {}\n" + "".join(f"p{k} = {{}}\n" for k in range(13)),
                                   "der(x) = a*x + b*u", "der(x) = ▸a*x + " + " + ".join(f"u^{k + 1}/(p{k} + p{k + 1})" for k in range(12))), "more than 2000 terms"),

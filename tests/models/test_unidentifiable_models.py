@@ -41,6 +41,13 @@ CASES = [
     ("a sum and its square", model(["a = {}", "b = {}"], 'ode = ▸"der(x) = (a + b)*u"', 'ode = "der(y) = (a + b)^2*u"'), [["a, b", "a + b"]]),
     ("products of signals alone, their constant erased", model(["a = {}", "b = {}"], 'ode = "a*der(x) = (2 + 2*a)*u + u"\nkappa = 1', 'ode = ▸"1000*a + b*u/y*(y - u) = 2 + b"\nkappa = 1'), [["b"]]),
     ("the second of two equations", model(["a = {}", "b = {}", "c = {}"], 'ode = "der(x) = a*u"', 'ode = ▸"der(y) = b*c*u"'), [["b, c", "b*c"]]),
+    *[(f"two spellings of one signal: {ode}", model(["a = {}", "b = {}"], f'ode = ▸"der(x) = {ode}"'), [["a, b", f"enter only through {seen};"]]) for ode, seen in [
+        ("a*sin(u + y) + b*sin(y + u)", "a + b"), ("a*sin(2*u) + b*sin(u + u)", "a + b"), ("a*sin(u*y) + b*sin(y*u)", "a + b"),
+        ("a*sin((u + y)^2) + b*sin(u^2 + 2*u*y + y^2)", "a + b"), ("a*exp(-u/y) + b*exp(-(u*y^-1))", "a + b"), ("a*exp(0.1*u) + b*exp(u/10)", "a + b"),
+        ("a*sin(cos(u + y)) + b*sin(cos(y + u))", "a + b"), ("a*max(u, y) + b*max(y, u)", "a + b"), ("a*sqrt(u + y) + b*(y + u)^(1/2)", "a + b"),
+        ("a*y/(u + 1) + b*y/(1 + u)", "a + b"), ("a*y/(2*u + 2) + b*y/(1 + u)", "a + 2*b"), ("a*sin(u) + b*sin(-u)", "a - b"), ("a*cos(u - y) + b*cos(y - u)", "a + b"),
+        ("a*tan(u - y) + b*tan(y - u)", "a - b"), ("a*abs(3*u) + b*abs(-u)", "3*a + b"), ("a*sgn(der(y)) + b*sgn(-2*der(y))", "a - b")]],
+    ("function of what cancels", model(["a = {}", "▸b = {}"], 'ode = "der(x) = a*u + b*sin(u - u)"'), [["'b'"]]),
     ("parameter that the transfer equation does not name",
      HEAD + "[parameters]\n▸spare = {}\n[transfer]\nn = 1\nunknowns = [\"a0\", \"b0\"]\n", [["'spare'"]]),
 ]
@@ -64,6 +71,13 @@ class Unidentifiable(ModelCase):
                     self.assertEqual(out, "")
                     self.assertLess(seconds, 1.0)
                     self.assertEqual(self.entries(), ["m.toml"])
+
+    def test_functions_that_differ_are_told_apart(self):
+        for ode in ("a*sin(u) + b*sin(2*u)", "a*exp(u) + b*exp(-u)", "a*max(u, y) + b*min(u, y)", "a*sqrt(u) + b*sqrt(u + 1)", "a*u^y + b*y^u",
+                    "a*abs(u) + b*u", "a*sgn(u) + b*sgn(u + 1)", "a*cos(u + y) + b*cos(u - y)", "a/(u + y) + b/(u - y)", "a*log(u*y) + b*log(u/y)"):
+            with self.subTest(ode):
+                self.write(model(["a = {}", "b = {}"], f'ode = "der(x) = {ode}"').encode())
+                self.assertEqual(self.run_algest("check", "m.toml")[0], 0)
 
     def test_bad_input_outweighs_it(self):
         content, _ = without_marks(model(["a = {}", "spare = {}"], 'ode = "der(x) = sin(a)*u"'))
