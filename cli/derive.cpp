@@ -8,7 +8,9 @@ namespace algest::cli {
 
 int derive(const DeriveOptions& options) {
     Diagnostics diagnostics;
-    const auto plan = generator::plan_from_model(options.model, {}, diagnostics);
+    generator::PlanOptions plan_options;
+    plan_options.weights = false;
+    const auto plan = generator::plan_from_model(options.model, plan_options, diagnostics);
     if (!plan) return fail(diagnostics, options.format == "json");
     if (options.weights && options.format != "json")
         diagnostics.note(options.model, "--weights shows in --format json alone");

@@ -59,6 +59,7 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
                           {},
                           {},
                           {}};
+    data.tables.reserve(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
     for (const Table& table : plan.tables) {
         for (const double weight : table.weights) data.tables.push_back(static_cast<S>(weight));
     }

@@ -138,7 +138,7 @@ int instance_bytes(const Plan& plan) {
     return (bytes + alignment - 1) / alignment * alignment;
 }
 
-Data head(const Plan& plan) {
+Data head(const Plan& plan, const std::string& hash) {
     Data d;
     d.set("version", std::string(ALGEST_VERSION));
     d.set("name", plan.name);
@@ -150,7 +150,7 @@ Data head(const Plan& plan) {
     d.set("scalar", scalar_name(plan));
     d.set("solve", solve_name(plan));
     d.set("quadrature", quadrature_name(plan));
-    d.set("hash", plan_hash(plan));
+    d.set("hash", hash);
     d.set("abi", std::to_string(ALGEST_RUNTIME_ABI));
     d.set("samples", std::to_string(plan.samples()));
     d.set("signals", std::to_string(plan.window_signals.size()));
@@ -176,8 +176,8 @@ void set_cost(const Plan& plan, Data& d) {
     d.set("first_ok_s", exact::decimal(exact::from_text(plan.period_text) * (first_ok - 1)));
 }
 
-std::string estimator_header(const Plan& plan) {
-    Data d = head(plan);
+std::string estimator_header(const Plan& plan, const std::string& hash) {
+    Data d = head(plan, hash);
     set_cost(plan, d);
     d.set("delayed", plan.delayed());
     DataList inputs;
@@ -237,18 +237,33 @@ std::string estimator_header(const Plan& plan) {
     return render("cpp/estimator.hpp.mustache", d);
 }
 
+/// Stands in the rendered text where the weights of the next table belong: megabytes, which mustache would copy five times.
+constexpr char place_of_weights = '\x01';
+
 /// The weights of a table, four a line.
-std::string weight_lines(const plan::Table& table, const Plan& plan) {
-    std::string out;
+void append_weights(const plan::Table& table, const Plan& plan, std::string& out) {
+    const char* const end = plan.scalar == plan::Scalar::float32 ? "f," : ",";
     for (std::size_t k = 0; k < table.weights.size(); ++k) {
         out += k % 4 == 0 ? (k == 0 ? "    " : "\n    ") : " ";
-        out += literal(table.weights[k], plan) + ",";
+        exact::append_hexadecimal(table.weights[k], out);
+        out += end;
+    }
+}
+
+std::string with_weights(const std::string& rendered, const Plan& plan) {
+    constexpr std::size_t longest_weight = 27;   // " -0x1.0123456789abcp-1074f,"
+    std::string out;
+    out.reserve(rendered.size() + longest_weight * plan.tables.size() * static_cast<std::size_t>(plan.samples()));
+    std::size_t table = 0;
+    for (const char c : rendered) {
+        if (c == place_of_weights) append_weights(plan.tables.at(table++), plan, out);
+        else out += c;
     }
     return out;
 }
 
-std::string tables_header(const Plan& plan) {
-    Data d = head(plan);
+std::string tables_header(const Plan& plan, const std::string& hash) {
+    Data d = head(plan, hash);
     DataList tables;
     for (const plan::Table& table : plan.tables) {
         std::string kernel;
@@ -256,7 +271,7 @@ std::string tables_header(const Plan& plan) {
         Data t;
         t.set("table_name", table.name);
         t.set("kernel", kernel);
-        t.set("values", weight_lines(table, plan));
+        t.set("values", std::string(1, place_of_weights));
         tables.push_back(t);
     }
     d.set("tables", listed(tables));
@@ -288,14 +303,19 @@ std::string tables_header(const Plan& plan) {
     d.set("term_count", std::to_string(blueprint.terms.size()));
     d.set("keep", literal(plan.keep, plan));
     d.set("condition_limit", literal(plan.condition_limit, plan));
-    return render("cpp/tables.hpp.mustache", d);
+    return with_weights(render("cpp/tables.hpp.mustache", d), plan);
 }
 
 }  // namespace
 
 std::vector<EmittedFile> emit(const Plan& plan) {
     const std::string stem = plan.name + "/" + plan.name;
-    return {{stem + ".hpp", estimator_header(plan)}, {stem + "_tables.hpp", tables_header(plan)}, {stem + ".md", derivation_text(plan)}};
+    const std::string hash = plan_hash(plan);
+    std::vector<EmittedFile> out;
+    out.push_back({stem + ".hpp", estimator_header(plan, hash)});
+    out.push_back({stem + "_tables.hpp", tables_header(plan, hash)});
+    out.push_back({stem + ".md", derivation_text(plan)});
+    return out;
 }
 
 }  // namespace algest::generator

@@ -174,12 +174,21 @@ double nearest(const Rational& value, plan::Scalar scalar) {
 }
 
 std::string hexadecimal(double value) {
+    std::string out;
+    append_hexadecimal(value, out);
+    return out;
+}
+
+void append_hexadecimal(double value, std::string& out) {
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    std::string out = (bits >> 63) != 0 ? "-0x" : "0x";
+    out += (bits >> 63) != 0 ? "-0x" : "0x";
     std::uint64_t fraction = bits & 0xFFFFFFFFFFFFFULL;
     int exponent = static_cast<int>((bits >> 52) & 0x7FF);
-    if (exponent == 0 && fraction == 0) return out + "0p+0";
+    if (exponent == 0 && fraction == 0) {
+        out += "0p+0";
+        return;
+    }
     if (exponent == 0) {
         exponent = -1022;
         while ((fraction & (1ULL << 52)) == 0) {
@@ -203,7 +212,7 @@ std::string hexadecimal(double value) {
     char digits[8];
     const auto [end, error] = std::to_chars(digits, digits + sizeof digits, std::abs(exponent));
     (void)error;
-    return out.append(digits, end);
+    out.append(digits, end);
 }
 
 Rational power_of_two_near_root(const Rational& value) {

@@ -47,6 +47,7 @@ double nearest(const Integer& numerator, const Integer& denominator, plan::Scala
 
 /// "0x1.8p-3": every double has one such text; denormals have a leading 1 and a smaller exponent, zero is "0x0p+0".
 std::string hexadecimal(double value);
+void append_hexadecimal(double value, std::string& out);
 
 /// The power of two nearest to sqrt(value) on a logarithmic scale. value > 0.
 Rational power_of_two_near_root(const Rational& value);

@@ -15,6 +15,7 @@ namespace algest::generator {
 struct PlanOptions {
     plan::Scalar scalar = plan::Scalar::float64;
     std::string engine;    ///< "fir", "moments", or empty: as the model says
+    bool weights = true;   ///< false: tables without weights, for who only shows where they come from; most of the work
 };
 
 /// Reads and checks a model file; every complaint goes to `diagnostics`. True when the model is sound and identifiable.
@@ -25,7 +26,7 @@ bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics)
 /// an error that stands there already counts as one of this model.
 std::optional<plan::Plan> plan_from_model(const std::string& path, const PlanOptions& options, Diagnostics& diagnostics);
 
-/// The derivation for a person, for a paper, and for a program (design.md, section 8; `weights` adds the tables).
+/// Needs no weights in the plan. The derivation for a person, for a paper, and for a program (design.md, section 8; `weights` adds the tables).
 std::string derivation_text(const plan::Plan& plan);
 std::string derivation_latex(const plan::Plan& plan);
 std::string derivation_json(const plan::Plan& plan, bool weights);

@@ -141,6 +141,7 @@ std::vector<double> weights(const Coefficients& kernel, int intervals, plan::Hol
     const Fractions fractions = exact_weights(kernel, intervals, hold, quadrature);
     const exact::QuotientRounder nearest(fractions.denominator, scalar);
     std::vector<double> out;
+    out.reserve(static_cast<std::size_t>(intervals) + 1);
     for (std::size_t m = 0; m <= static_cast<std::size_t>(intervals); ++m) out.push_back(nearest(fractions.numerators.at(m), fractions.numerators.words));
     return out;
 }

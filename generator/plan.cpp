@@ -3,8 +3,10 @@
 #include "generator/plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "generator/annihilator.hpp"
@@ -199,6 +201,13 @@ private:
         return static_cast<int>(plan_.window_signals.size()) - 1;
     }
 
+    /// Derived once: every row and term of these orders has it.
+    const kernel::Coefficients& kernel_of(int derivative, int p, annihilator::Orders orders) {
+        const auto [at, fresh] = kernels_.try_emplace({derivative, p, orders.n, orders.kappa});
+        if (fresh) at->second = annihilator::kernel(derivative, p, orders);
+        return at->second;
+    }
+
     int table(std::size_t e, int derivative, int p, plan::Hold hold) {
         const int n = forms_[e].n;
         const int kappa = model_.equations[e].kappa;
@@ -216,10 +225,10 @@ private:
                                  : plan_.quadrature == plan::Quadrature::exact ? "linear"
                                  : plan_.quadrature == plan::Quadrature::trapezoid ? "trapezoid" : "simpson";
         out.name = "n" + std::to_string(n) + "_kappa" + std::to_string(kappa) + "_F_" + std::to_string(derivative) + "_" + std::to_string(p) + "_" + kind;
-        const kernel::Coefficients k = annihilator::kernel(derivative, p, {n, kappa});
+        const kernel::Coefficients& k = kernel_of(derivative, p, {n, kappa});
         for (const Rational& c : k) out.kernel.push_back(exact::text(c));
-        out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
-        plan_.tables.push_back(out);
+        if (options_.weights) out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
+        plan_.tables.push_back(std::move(out));
         return static_cast<int>(plan_.tables.size()) - 1;
     }
 
@@ -243,8 +252,7 @@ private:
     plan::RowTerm row_term(std::size_t e, int p, int term, int unknown, const Rational& coefficient, const Rational& weight, TapeBuilder& tape) {
         const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term)].product;
         const int derivative = forms_[e].order(product);
-        const annihilator::Orders orders{forms_[e].n, model_.equations[e].kappa};
-        const kernel::Coefficients k = annihilator::kernel(derivative, p, orders);
+        const kernel::Coefficients& k = kernel_of(derivative, p, {forms_[e].n, model_.equations[e].kappa});
         plan::RowTerm out;
         out.lumped = unknown;
         out.derivative = derivative;
@@ -344,6 +352,7 @@ private:
     std::vector<ChosenRow> rows_;
     std::vector<int> equation_index_;
     std::vector<int> input_of_signal_;
+    std::map<std::array<int, 4>, kernel::Coefficients> kernels_;   // by derivative, p, n, kappa
     plan::Plan plan_;
 };
 

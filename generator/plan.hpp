@@ -42,7 +42,7 @@ struct Table {
     int p;
     Hold hold;
     std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0
-    std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar
+    std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty if they were not asked for
 };
 
 /// One term of a row identity  sum theta_l K_l[f_l] = K_0[f_0].
