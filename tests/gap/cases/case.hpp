@@ -2,6 +2,7 @@
 // A case: a machine with something hidden, its recording, and the truth.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,19 @@
 
 namespace algest::gap {
 
-/// What can be hidden in a system: `effect`, `effect@slot`, two of them with `+`, `none`, `none_coloured`, `none_process`, `one_speed`.
-std::vector<std::string> hidings(const std::string& family);
+/// What can be hidden in a system: `none`, `none_coloured`, `none_process`, `effect@slot`, two of them with `+`, `one_speed`; with
+/// `structural` those that are more than a term: `effect@index` (of a slot, an input or a signal), `parameter_error@index`.
+std::vector<std::string> hidings(const std::string& family, bool structural);
+
+/// The words between separators.
+std::vector<std::string> parts(const std::string& text, char separator);
 
 struct Case {
     std::string name, hidden;
-    System system;
+    std::shared_ptr<System> system;
     Machine machine;                             ///< the true one
+    std::vector<double> believed;                ///< by quantity: what the model file declares known
+    std::vector<std::vector<double>> unspoilt;   ///< by signal: for the check, where the model's language cannot say what is hidden; else empty
     std::vector<std::vector<double>> measured;   ///< by signal of the model
     std::vector<double> initial_guess;           ///< by quantity
     std::vector<double> noise, resolution;       ///< by signal

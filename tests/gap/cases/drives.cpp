@@ -28,7 +28,7 @@ System dc_motor(const Wish& wish, Random& random, bool angle) {
     const double K = rounded(random.log_uniform(0.02, 0.15), 2);
     const double J = rounded(random.log_uniform(0.03, 0.15) * K * K / R, 2);   // mechanical time constant
     const bool no_viscous = wish.effect == "viscous_friction", no_emf = wish.effect == "back_emf";
-    const double b = no_viscous ? 0 : rounded(random.log_uniform(0.03, 0.15) * K * K / R, 2);
+    const double b = rounded(random.log_uniform(0.03, 0.15) * K * K / R, 2);
     const double U = random.log_uniform(6, 40);
     const double current = 0.25 * U / R, speed = 0.4 * U / K;
     // Without the induced voltage the model has b alone to hold the speed: K moves the machine, and is known.
@@ -57,6 +57,7 @@ System dc_motor(const Wish& wish, Random& random, bool angle) {
     voltage.speed = {1, -1, "w"};
     Slot torque{Kind::torque, 1, K * current};
     torque.speed = {1, -1, "w"};
+    torque.viscous = b;
     if (angle) torque.angle = {2, -1, "th"};
     s.slots = {voltage, torque};
     const std::size_t n = s.samples();
@@ -80,7 +81,7 @@ System pmsm(const Wish& wish, Random& random) {
     const double current = random.log_uniform(1, 4), speed = random.log_uniform(15, 80);
     const double J = rounded(Kt * current / (speed * random.uniform(8, 20)), 2);   // reaches its speed in about a tenth of a second
     const bool no_viscous = wish.effect == "viscous_friction";
-    const double b = no_viscous ? 0 : rounded(random.uniform(0.1, 0.3) * Kt * current / speed, 2);
+    const double b = rounded(random.uniform(0.1, 0.3) * Kt * current / speed, 2);
     s.quantities = {{"R", "ohm", R, false}, {"L", "H", L, false}, {"J", "kg.m^2", J, false}, {"pp", "1", pp, true}, {"psi", "Wb", psi, true}};
     if (!no_viscous) s.quantities.insert(s.quantities.begin() + 3, {"b", "N.m.s/rad", b, false});
     s.inputs = {"vd", "vq"};
@@ -103,6 +104,7 @@ System pmsm(const Wish& wish, Random& random) {
     q.current = {1, -1, "iq"};
     d.angle = q.angle = torque.angle = {3, -1, "th"};
     q.speed = torque.speed = {2, -1, "w"};
+    torque.viscous = b;
     s.slots = {d, q, torque};
     const std::size_t n = s.samples();
     std::vector<double> reference = sines(random, n, s.period, 2, 0.4, 3);
@@ -138,7 +140,7 @@ System voice_coil(const Wish& wish, Random& random) {
     const double natural = 2 * M_PI * random.log_uniform(4, 12);
     const double k = rounded(m * natural * natural, 2);
     const bool no_viscous = wish.effect == "viscous_friction", no_emf = wish.effect == "back_emf";
-    const double c = no_viscous ? 0 : rounded(2 * random.uniform(0.08, 0.2) * m * natural, 2);
+    const double c = rounded(2 * random.uniform(0.08, 0.2) * m * natural, 2);
     const double U = random.log_uniform(5, 24), force = 0.4 * Kf * U / R;
     s.quantities = {{"R", "ohm", R, false}, {"L", "H", L, true}, {"Kf", "N/A", Kf, true}, {"m", "kg", m, true}, {"k", "N/m", k, false}};
     if (!no_viscous) s.quantities.push_back({"c", "N.s/m", c, false});
@@ -158,6 +160,7 @@ System voice_coil(const Wish& wish, Random& random) {
     voltage.current = {0, -1, "i"};
     voltage.speed = push.speed = {2, -1, "v"};
     push.position = {1, -1, "x"};
+    push.viscous = c;
     s.slots = {voltage, push};
     s.experiment = play({scaled(excitation(random, s.samples(), s.period, 0.6, 18), U)});
     return s;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "effect.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rounding.hpp"
@@ -83,7 +84,7 @@ Effect hysteresis(const Role& speed, const Role& position, double size, double w
     e.formula = "-Fh*h, Dx*der(h)=v-0.5|v|h-0.5 v|h|";
     e.own = {0};
     e.term = [](std::size_t, const double*, const double*, double, const double* own, const double* q) { return -q[0] * own[0]; };
-    e.own_rate = [speed](const double* x, const double* own, const double* q, double* rate) {
+    e.own_rate = [speed](const double* x, const double*, const double* own, const double* q, double* rate) {
         const double v = speed.of(x);
         rate[0] = (v - 0.5 * std::abs(v) * own[0] - 0.5 * v * std::abs(own[0])) / q[1];
     };
@@ -96,8 +97,8 @@ Effect hysteresis(const Role& speed, const Role& position, double size, double w
 }  // namespace
 
 std::string Effect::equations(const System& system) const {
-    std::string out;
-    for (const int slot : slots) {
+    std::string out = where;
+    for (const int slot : where.empty() ? slots : std::vector<int>{}) {
         const Slot& s = system.slots[static_cast<std::size_t>(slot)];
         for (const int e : {s.equation, s.opposite}) {
             if (e >= 0) out += (out.empty() ? "" : ",") + system.equations[static_cast<std::size_t>(e)].signal;
@@ -115,6 +116,7 @@ const std::vector<std::string>& term_effects() {
 }
 
 std::optional<Effect> effect(const std::string& name, const System& system, int slot, const State& scale, Random& random) {
+    if (slot >= static_cast<int>(system.slots.size())) return std::nullopt;
     const Slot& s = system.slots[static_cast<std::size_t>(slot)];
     if (s.excluded.count(name)) return std::nullopt;
     const bool mechanical = s.kind == Kind::torque || s.kind == Kind::force;
@@ -128,7 +130,8 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
             e->values = {start};
         } else if (name == "viscous_friction") {
             e = of_role(name, {"b"}, s.speed, "-<b>*$", [](double x, const double* q) { return -q[0] * x; });
-            e->values = {start / v};
+            e->values = {s.viscous > 0 ? s.viscous : start / v};
+            e->tuned = s.viscous <= 0;   // an oscillator with next to no damping is no model that a person would start from
         } else if (name == "quadratic_drag") {
             e = of_role(name, {"kq"}, s.speed, "-<kq>*$*abs($)", [](double x, const double* q) { return -q[0] * x * std::abs(x); });
             e->values = {start / (v * v)};
@@ -166,7 +169,9 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
         } else if (name == "cogging_torque") {
             e = of_role(name, {"Tcog", "N", "phi"}, s.angle, "-<Tcog>*sin(<N>*$+<phi>)",
                         [](double x, const double* q) { return -q[0] * std::sin(q[1] * x + q[2]); });
-            e->values = {start, static_cast<double>(random.integer(4, 48)), rounded(random.uniform(-3, 3), 2)};
+            // As fast a wave as the sampling can follow at most speeds.
+            const double highest = 0.25 * 2 * M_PI / (system.period * scale[static_cast<std::size_t>(s.speed.state)]);
+            e->values = {start, static_cast<double>(random.integer(4, std::clamp(static_cast<int>(highest), 6, 48))), rounded(random.uniform(-3, 3), 2)};
         }
     }
     if (s.kind == Kind::voltage) {

@@ -10,9 +10,9 @@
 int main(int argc, char** argv) {
     using namespace algest::gap;
     try {
-        if (argc == 2 && std::string(argv[1]) == "--list") {
+        if (argc == 2 && (std::string(argv[1]) == "--terms" || std::string(argv[1]) == "--structural")) {
             for (const std::string& family : families()) {
-                for (const std::string& hidden : hidings(family)) std::printf("%s %s\n", family.c_str(), hidden.c_str());
+                for (const std::string& hidden : hidings(family, std::string(argv[1]) == "--structural")) std::printf("%s %s\n", family.c_str(), hidden.c_str());
             }
             return 0;
         }
@@ -24,6 +24,6 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "gap_cases: %s\n", e.what());
         return 1;
     }
-    std::fprintf(stderr, "usage: gap_cases --list | gap_cases FAMILY HIDDEN SEED FOLDER\n");
+    std::fprintf(stderr, "usage: gap_cases --terms | gap_cases --structural | gap_cases FAMILY HIDDEN SEED FOLDER\n");
     return 2;
 }

@@ -63,7 +63,7 @@ System two_mass(const Wish& wish, Random& random) {
     const double k = rounded(joint * resonance * resonance, 2), c = rounded(2 * random.uniform(0.02, 0.2) * joint * resonance, 2);
     const double all = (J1 + J2) / random.uniform(0.3, 1);
     const bool no_viscous = wish.effect == "viscous_friction";
-    const double b1 = no_viscous ? 0 : rounded(0.35 * all, 2), b2 = rounded(0.65 * all, 2);
+    const double b1 = rounded(0.35 * all, 2), b2 = rounded(0.65 * all, 2);
     const double torque = random.uniform(10, 40) * all, speed = 0.6 * torque / all;
     s.quantities = {{"J1", "kg.m^2", J1, false}, {"J2", "kg.m^2", J2, false}, {"b2", "N.m.s/rad", b2, false}, {"k", "N.m/rad", k, false},
                     {"c", "N.m.s/rad", c, false}};
@@ -86,6 +86,7 @@ System two_mass(const Wish& wish, Random& random) {
     Slot motor{Kind::torque, 0, 0.5 * torque}, load{Kind::torque, 1, 0.5 * torque};
     motor.speed = {0, -1, "w1"};
     motor.angle = {2, -1, "th1"};
+    motor.viscous = b1;
     load.speed = {1, -1, "w2"};
     load.angle = {3, -1, "th2"};
     load.excluded = {"viscous_friction"};
@@ -103,7 +104,7 @@ System mass_spring(const Wish& wish, Random& random, bool speed) {
     const double m = rounded(random.log_uniform(0.3, 5), 2), natural = 2 * M_PI * random.uniform(1.8, 4.5);
     const double k = rounded(m * natural * natural, 2);
     const bool no_viscous = wish.effect == "viscous_friction";
-    const double c = no_viscous ? 0 : rounded(2 * random.uniform(0.04, 0.15) * m * natural, 2);
+    const double c = rounded(2 * random.uniform(0.04, 0.15) * m * natural, 2);
     const double size = random.log_uniform(0.01, 0.1), F = 0.6 * k * size;
     s.quantities = {{"k", "N/m", k, false}, {"m", "kg", m, true}};
     if (!no_viscous) s.quantities.insert(s.quantities.begin() + 1, {"c", "N.s/m", c, false});
@@ -124,6 +125,7 @@ System mass_spring(const Wish& wish, Random& random, bool speed) {
     };
     Slot force{Kind::force, speed ? 1 : 0, F};
     force.speed = {1, -1, speed ? "v" : "der(x)"};
+    force.viscous = c;
     force.position = {0, -1, "x"};
     s.slots = {force};
     s.experiment = play({scaled(excitation(random, s.samples(), s.period, 0.2, 7), 1.4 * F, random.chance(0.4) ? 0.2 * F : 0)});
@@ -138,7 +140,7 @@ System arm(const Wish& wish, Random& random) {
     const double J = rounded(random.log_uniform(0.01, 0.3), 2), natural = random.uniform(4, 8);
     const bool no_viscous = wish.effect == "viscous_friction";
     const bool no_gravity = wish.effect == "gravity_sin" || random.chance(0.3);
-    const double b = no_viscous ? 0 : rounded(random.uniform(0.5, 2) * J, 2), G = no_gravity ? 0 : rounded(J * natural * natural, 2);
+    const double b = rounded(random.uniform(0.5, 2) * J, 2), G = no_gravity ? 0 : rounded(J * natural * natural, 2);
     s.quantities = {{"J", "kg.m^2", J, false}};
     if (!no_viscous) s.quantities.push_back({"b", "N.m.s/rad", b, false});
     if (!no_gravity) s.quantities.push_back({"G", "N.m", G, false});
@@ -156,13 +158,14 @@ System arm(const Wish& wish, Random& random) {
     };
     Slot torque{Kind::torque, 1, 15 * J};
     torque.speed = {1, -1, "w"};
+    torque.viscous = b;
     torque.angle = torque.position = {0, -1, "th"};
     if (!no_gravity) torque.excluded = {"gravity_sin"};
     s.slots = {torque};
     const std::size_t n = s.samples();
     std::vector<double> target = steps(random, n, s.period, 1.2);
     const std::vector<double> shake = sines(random, n, s.period, 4, 0.3, 4);
-    for (std::size_t k = 0; k < n; ++k) target[k] = 2.2 * target[k] + 0.3 * shake[k];
+    for (std::size_t k = 0; k < n; ++k) target[k] = (no_gravity ? 2.2 : 1.1) * target[k] + 0.2 * shake[k];   // above the pivot the replayed torque would not hold it
     // A slow loop: the arm must pass every speed, and gravity may sag it.
     s.experiment = [=]() -> Controller {
         return [=](std::size_t k, const State& x, std::vector<double>& u) { u[0] = J * (45 * (target[k] - x[0]) - 6 * x[1]) + J * 6 * shake[k]; };
@@ -177,7 +180,7 @@ System servo_axis(const Wish& wish, Random& random) {
     s.duration = random.integer(8, 14);
     const double m = rounded(random.log_uniform(2, 40), 2);
     const bool no_viscous = wish.effect == "viscous_friction";
-    const double b = no_viscous ? 0 : rounded(random.uniform(2, 6) * m, 2), travel = random.log_uniform(0.02, 0.3);
+    const double b = rounded(random.uniform(2, 6) * m, 2), travel = random.log_uniform(0.02, 0.3);
     s.quantities = {{"m", "kg", m, false}};
     if (!no_viscous) s.quantities.push_back({"b", "N.s/m", b, false});
     s.inputs = {"F"};
@@ -192,6 +195,7 @@ System servo_axis(const Wish& wish, Random& random) {
     Slot force{Kind::force, 0, 25 * m * travel};
     force.speed = {1, -1, "der(x)"};
     force.position = {0, -1, "x"};
+    force.viscous = b;
     s.slots = {force};
     const std::size_t n = s.samples();
     std::vector<double> target = steps(random, n, s.period, 0.8);
@@ -212,7 +216,7 @@ System quarter_car(const Wish& wish, Random& random) {
     const double body = 2 * M_PI * random.uniform(1.0, 1.8), wheel = 2 * M_PI * random.uniform(8, 12);
     const double ks = rounded(ms * body * body, 2), kt = rounded(mu * wheel * wheel, 2);
     const bool no_viscous = wish.effect == "viscous_friction";
-    const double cs = no_viscous ? 0 : rounded(2 * random.uniform(0.15, 0.35) * ms * body, 2);
+    const double cs = rounded(2 * random.uniform(0.15, 0.35) * ms * body, 2);
     const double road = random.uniform(0.01, 0.03);
     s.quantities = {{"ks", "N/m", ks, false}, {"kt", "N/m", kt, false}, {"ms", "kg", ms, true}, {"mu", "kg", mu, true}};
     if (!no_viscous) s.quantities.insert(s.quantities.begin() + 2, {"cs", "N.s/m", cs, false});
@@ -234,6 +238,7 @@ System quarter_car(const Wish& wish, Random& random) {
     Slot lone{Kind::force, 0, 0.3 * ks * road}, strut{Kind::force, 0, 0.3 * ks * road};
     lone.excluded = {"coulomb_friction", "quadratic_drag", "viscous_friction", "cubic_stiffness", "hard_stop", "cubic_damping"};   // nothing holds the body but its strut
     strut.opposite = 1;
+    strut.viscous = cs;
     strut.speed = {1, 3, "(der(xs)-der(xu))"};
     strut.position = {0, 2, "(xs-xu)"};
     strut.excluded = {"constant_load", "sinusoidal_disturbance"};

@@ -31,7 +31,7 @@ std::vector<Free> free_values(const Machine& machine) {
 VectorXd residual(const Machine& model, const Truth& truth) {
     const Run run = replay(model, truth.inputs);
     if (!run.finite) return {};
-    const auto outputs = scored(*model.system, run);
+    const auto outputs = scored(model, run);
     const auto samples = static_cast<Eigen::Index>(outputs[0].size());
     VectorXd r(samples * static_cast<Eigen::Index>(outputs.size()));
     for (std::size_t o = 0; o < outputs.size(); ++o) {
@@ -71,12 +71,20 @@ std::vector<double> by_output(const VectorXd& r, std::size_t outputs) {
 
 }  // namespace
 
-std::vector<std::vector<double>> scored(const System& system, const Run& run) {
+std::vector<double> shown(const Machine& machine, const Run& run, std::size_t signal) {
+    std::vector<double> out;
+    for (const State& x : run.states) out.push_back(x[static_cast<std::size_t>(machine.system->signals[signal].state)]);
+    for (const Effect& e : machine.effects) {
+        if (e.signal != static_cast<int>(signal)) continue;
+        for (double& v : out) v = e.shows(v, e.values.data());
+    }
+    return out;
+}
+
+std::vector<std::vector<double>> scored(const Machine& machine, const Run& run) {
     std::vector<std::vector<double>> out;
-    for (const Signal& s : system.signals) {
-        if (s.state < 0 || !s.scored) continue;
-        out.emplace_back();
-        for (const State& x : run.states) out.back().push_back(x[static_cast<std::size_t>(s.state)]);
+    for (std::size_t s = 0; s < machine.system->signals.size(); ++s) {
+        if (machine.system->signals[s].state >= 0 && machine.system->signals[s].scored) out.push_back(shown(machine, run, s));
     }
     return out;
 }
@@ -111,19 +119,23 @@ Fitted refit(Machine model, const Truth& truth, int iterations) {
     return {model, by_output(r, truth.outputs.size()), true};
 }
 
-double left_with(const Fitted& fitted, const Truth& truth, const Effect& rival) {
+std::vector<double> left_with(const Fitted& fitted, const Truth& truth, const std::vector<std::function<void(Machine&)>>& nudges) {
     const VectorXd r = residual(fitted.model, truth);
     const std::vector<Free> free = free_values(fitted.model);
     MatrixXd J = sensitivities(fitted.model, truth, free, r);
-    Machine with = fitted.model;
-    with.effects.push_back(rival);
-    with.effects.back().values[0] *= 1e-2;
-    const VectorXd there = residual(with, truth);
-    if (there.size() != r.size()) return HUGE_VAL;
     J.conservativeResize(Eigen::NoChange, J.cols() + 1);
-    J.col(J.cols() - 1) = (there - r) / 1e-2;
-    const std::vector<double> left = by_output(r + J * least_squares(J, r), truth.outputs.size());
-    return *std::max_element(left.begin(), left.end());
+    std::vector<double> left;
+    for (const auto& nudge : nudges) {
+        Machine with = fitted.model;
+        nudge(with);
+        const VectorXd there = residual(with, truth);
+        left.push_back(HUGE_VAL);
+        if (there.size() != r.size() || !((there - r).squaredNorm() > 0)) continue;
+        J.col(J.cols() - 1) = (there - r) * std::sqrt(static_cast<double>(r.size())) / (there - r).norm();
+        const std::vector<double> rms = by_output(r + J * least_squares(J, r), truth.outputs.size());
+        left.back() = *std::max_element(rms.begin(), rms.end());
+    }
+    return left;
 }
 
 }  // namespace algest::gap

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How large a gap is once the model's parameters did what they can: a least-squares fit in free run, by Gauss and Newton.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "run.hpp"
@@ -14,8 +15,11 @@ struct Truth {
     std::vector<std::vector<double>> inputs;
 };
 
-/// Scored signals of a run, in the order of the model's signals.
-std::vector<std::vector<double>> scored(const System& system, const Run& run);
+/// What the sensor of a signal shows, without noise.
+std::vector<double> shown(const Machine& machine, const Run& run, std::size_t signal);
+
+/// The same for all scored signals, in the order of the model's.
+std::vector<std::vector<double>> scored(const Machine& machine, const Run& run);
 
 struct Fitted {
     Machine model;
@@ -27,7 +31,7 @@ struct Fitted {
 /// Fits the unknown quantities and the strengths of the model's effects.
 Fitted refit(Machine model, const Truth& truth, int iterations);
 
-/// What would be left if one more effect were fitted beside all that is free in `fitted`, to first order; its strength sets the step.
-double left_with(const Fitted& fitted, const Truth& truth, const Effect& rival);
+/// What would be left, worst output, if one thing more were free, to first order, for each of `nudges`, which moves that thing a little.
+std::vector<double> left_with(const Fitted& fitted, const Truth& truth, const std::vector<std::function<void(Machine&)>>& nudges);
 
 }  // namespace algest::gap

@@ -18,10 +18,11 @@ public:
     explicit Motion(const Machine& machine)
         : machine_(machine), count_(machine.system->initial.size()), x_(count_), rate_(count_), added_(machine.system->slots.size()) {}
 
-    void at(std::size_t sample, double start, const std::vector<double>* u) {
+    void at(std::size_t sample, const std::vector<std::vector<double>>& commanded) {
         sample_ = sample;
-        start_ = start;
-        u_ = u;
+        start_ = static_cast<double>(sample) * machine_.system->period;
+        commanded_ = &commanded;
+        u_ = commanded.back();
     }
 
     void operator()(const State& z, State& dz, double t) {
@@ -29,13 +30,18 @@ public:
         for (std::size_t s = 0; s < added_.size(); ++s) added_[s] = machine_.process_noise.empty() || machine_.process_noise[s].empty() ? 0.0 : machine_.process_noise[s][sample_];
         std::size_t own = count_;
         for (const Effect& e : machine_.effects) {
-            for (std::size_t w = 0; w < e.slots.size(); ++w) {
-                added_[static_cast<std::size_t>(e.slots[w])] += e.term(w, x_.data(), u_->data(), start_ + t, z.data() + own, e.values.data());
-            }
-            if (e.own_rate) e.own_rate(x_.data(), z.data() + own, e.values.data(), dz.data() + own);
+            if (e.arrives) u_[static_cast<std::size_t>(e.input)] = e.arrives(*commanded_, sample_, z.data() + own, e.values.data());
             own += e.own.size();
         }
-        machine_.system->rate(x_.data(), u_->data(), machine_.p.data(), added_.data(), rate_.data());
+        own = count_;
+        for (const Effect& e : machine_.effects) {
+            for (std::size_t w = 0; w < e.slots.size(); ++w) {
+                added_[static_cast<std::size_t>(e.slots[w])] += e.term(w, x_.data(), u_.data(), start_ + t, z.data() + own, e.values.data());
+            }
+            if (e.own_rate) e.own_rate(x_.data(), commanded_->back().data(), z.data() + own, e.values.data(), dz.data() + own);
+            own += e.own.size();
+        }
+        machine_.system->rate(x_.data(), u_.data(), machine_.p.data(), added_.data(), rate_.data());
         for (std::size_t i = 0; i < count_; ++i) dz[i] = rate_[i] / machine_.scale[i];
     }
 
@@ -44,7 +50,8 @@ private:
     std::size_t count_, sample_ = 0;
     double start_ = 0;
     State x_, rate_, added_;
-    const std::vector<double>* u_ = nullptr;
+    std::vector<double> u_;                                        ///< as they arrive
+    const std::vector<std::vector<double>>* commanded_ = nullptr;
 };
 
 /// One sample ahead; false where it diverges.
@@ -90,7 +97,7 @@ Run run(const Machine& machine, const std::vector<std::vector<double>>* replayed
         if (system.feedback) u[static_cast<std::size_t>(system.feedback->input)] = system.feedback->value(x.data(), u.data(), machine.p.data());
         out.states.push_back(x);
         out.inputs.push_back(u);
-        motion.at(k, static_cast<double>(k) * system.period, &u);
+        motion.at(k, out.inputs);
         if (!advance(stepper, motion, z, system.period, step)) {
             out.finite = false;
             break;

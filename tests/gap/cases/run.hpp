@@ -14,7 +14,7 @@ struct Machine {
     std::vector<double> p;             ///< by quantity
     std::vector<Effect> effects;
     State scale;                       ///< typical sizes of the states, for the tolerance
-    std::vector<std::vector<double>> process_noise;   ///< by slot: one value a sample, held; empty: none
+    std::vector<std::vector<double>> process_noise = {};   ///< by slot: one value a sample, held; empty: none
 };
 
 /// By sample. Not finite: the run diverged.

@@ -52,6 +52,7 @@ struct Slot {
     int opposite = -1;
     Role speed = {}, angle = {}, position = {}, current = {}, level = {};
     int input = -1;
+    double viscous = 0;              ///< a usual coefficient of viscous friction, where the model may be written without it
     std::set<std::string> excluded = {};  ///< effects that the model's own terms would absorb
 };
 

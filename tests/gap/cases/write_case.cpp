@@ -33,11 +33,25 @@ std::string own(std::string text, std::size_t index) {
     return text;
 }
 
+/// A formula with one name in place of another.
+std::string with_word(const std::string& text, const std::string& word, const std::string& with) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size();) {
+        std::size_t end = i;
+        while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_')) ++end;
+        if (end == i) ++end;
+        const std::string part = text.substr(i, end - i);
+        out += part == word ? with : part;
+        i = end;
+    }
+    return out;
+}
+
 std::string unit_of(const std::string& unit) { return unit.empty() ? "" : fmt::format(", unit = \"{}\"", unit); }
 
 /// `truth`: true values in place of guesses, and the hidden terms.
 std::string model_text(const Case& c, bool truth) {
-    const System& s = c.system;
+    const System& s = *c.system;
     const std::vector<Effect>& hidden = c.machine.effects;
     std::string out = fmt::format("name = \"{}\"\nsummary = \"{}\"\n\n[sampling]\nperiod = \"{}\"\n\n[signals]\n", c.name, s.summary, s.period);
     for (std::size_t i = 0; i < s.signals.size(); ++i) {
@@ -56,7 +70,8 @@ std::string model_text(const Case& c, bool truth) {
     }
     out += "\n[constants]\n";
     for (std::size_t q = 0; q < s.quantities.size(); ++q) {
-        if (s.quantities[q].known) out += fmt::format("{} = {{ value = {}{} }}\n", s.quantities[q].name, number(s.quantities[q].value), unit_of(s.quantities[q].unit));
+        const double value = truth ? c.machine.p[q] : c.believed[q];
+        if (s.quantities[q].known) out += fmt::format("{} = {{ value = {}{} }}\n", s.quantities[q].name, number(value), unit_of(s.quantities[q].unit));
     }
     if (truth) {
         for (std::size_t e = 0; e < hidden.size(); ++e) {
@@ -74,6 +89,9 @@ std::string model_text(const Case& c, bool truth) {
     }
     for (std::size_t e = 0; e < s.equations.size(); ++e) {
         std::string ode = s.equations[e].ode;
+        for (std::size_t h = 0; truth && h < hidden.size(); ++h) {
+            if (!hidden[h].input_text.empty()) ode = with_word(ode, s.inputs[static_cast<std::size_t>(hidden[h].input)], own(hidden[h].input_text, h));
+        }
         if (truth) {
             for (std::size_t h = 0; h < hidden.size(); ++h) {
                 for (std::size_t w = 0; w < hidden[h].slots.size(); ++w) {
@@ -103,20 +121,32 @@ std::string model_text(const Case& c, bool truth) {
 }
 
 ordered_json answer(const Case& c) {
-    const System& s = c.system;
+    const System& s = *c.system;
     // The recording is cut as a person would: at a tenth of its last digit.
     const double train = rounded(0.7 * s.duration, 6);
     bool unknown = false;
     ordered_json effects = ordered_json::array(), accepted = ordered_json::array();
     for (const Effect& e : c.machine.effects) {
         ordered_json values;
-        for (std::size_t n = 0; n < e.names.size(); ++n) values[e.names[n]] = e.values[n];
+        if (e.stated) {
+            for (const auto& [name, value] : e.stated(e.values)) values[name] = value;
+        } else {
+            for (std::size_t n = 0; n < e.names.size(); ++n) values[e.names[n]] = e.values[n];
+        }
         effects.push_back({{"name", e.name}, {"equation", e.equations(s)}, {"formula", e.formula}, {"params", values}});
         accepted.push_back(e.accepted);
         unknown = unknown || !e.in_library;
     }
-    ordered_json parameters = ordered_json::object(), floor, nominal, refitted;
-    for (const Quantity& q : s.quantities) parameters[q.name] = q.value;
+    ordered_json parameters = ordered_json::object(), wrong = ordered_json::object(), floor, nominal, refitted;
+    for (std::size_t q = 0; q < s.quantities.size(); ++q) {
+        const std::string& name = s.quantities[q].name;
+        parameters[name] = c.machine.p[q];
+        if (c.believed[q] == c.machine.p[q]) continue;
+        wrong[name] = rounded(c.believed[q] / c.machine.p[q], 5);
+        if (c.ambiguous) continue;
+        effects.push_back({{"name", "parameter_error"}, {"equation", name}, {"formula", "the value declared known is wrong"}, {"params", ordered_json::object()}});
+        accepted.push_back({"parameter_error"});
+    }
     std::size_t o = 0;
     for (const Signal& sig : s.signals) {
         if (sig.state < 0 || !sig.scored) continue;
@@ -135,11 +165,23 @@ ordered_json answer(const Case& c) {
             {"true_model_parameters", parameters},
             {"noise_floor_nrmse", floor},
             {"nominal_nrmse_with_true_parameters", nominal},
-            {"wrong_known_parameters", ordered_json::object()},
+            {"wrong_known_parameters", wrong},
             {"regularisation", fmt::format("sgn(x) is tanh(x/eps), eps={} of the size of x", smoothing)},
             {"note", c.note},
             {"hidden", c.hidden},
             {"refitted_nominal_nrmse", refitted}};
+}
+
+std::string recording(const System& system, const std::vector<std::vector<double>>& columns) {
+    std::string csv = "t [s]";
+    for (const Signal& s : system.signals) csv += fmt::format(",{} [{}]", s.name, s.unit == "1" ? "-" : s.unit);
+    csv += "\n";
+    for (std::size_t k = 0; k < columns[0].size(); ++k) {
+        csv += fmt::format("{:.9g}", static_cast<double>(k) * system.period);
+        for (const auto& column : columns) csv += fmt::format(",{:.9g}", column[k]);
+        csv += "\n";
+    }
+    return csv;
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -156,15 +198,8 @@ void write_case(const Case& c, const std::string& folder) {
     write(path / "model.toml", model_text(c, false));
     write(path / "truth.toml", model_text(c, true));
     write(path / "answer.json", answer(c).dump(1) + "\n");
-    std::string csv = "t [s]";
-    for (const Signal& s : c.system.signals) csv += fmt::format(",{} [{}]", s.name, s.unit == "1" ? "-" : s.unit);
-    csv += "\n";
-    for (std::size_t k = 0; k < c.measured[0].size(); ++k) {
-        csv += fmt::format("{:.9g}", static_cast<double>(k) * c.system.period);
-        for (const auto& column : c.measured) csv += fmt::format(",{:.9g}", column[k]);
-        csv += "\n";
-    }
-    write(path / "measured.csv", csv);
+    write(path / "measured.csv", recording(*c.system, c.measured));
+    if (!c.unspoilt.empty()) write(path / "truth.csv", recording(*c.system, c.unspoilt));
 }
 
 }  // namespace algest::gap

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What else explains a recording as well as the thing that is hidden.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "refit.hpp"
+
+namespace algest::gap {
+
+struct Rivals {
+    std::vector<std::string> names;   ///< things of a usual library, without the hidden one
+    bool same = false;                ///< one of them is the same to the last bit
+};
+
+/// `machine` is the true one, `model` the one without what is hidden.
+Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, const State& scale, Random& random);
+
+}  // namespace algest::gap
