@@ -22,6 +22,7 @@ using generator::DataList;
 
 constexpr double at_the_floor = 1.2;           ///< error over floor that is called the floor
 constexpr std::size_t most_evidence = 40;      ///< rows of the table
+constexpr double share_worth_a_line = 0.02;    ///< of the gap, in the verdict
 
 /// Every text goes into the page through here.
 void set(Data& data, const std::string& name, const std::string& text) { data.set(name, html_text(text)); }
@@ -246,6 +247,7 @@ DataList where_data(const Discovery& d) {
         Data data;
         set(data, "equation", w.equation);
         set(data, "share", fmt::format("{:.1f}", 100 * w.share));
+        data.set("large", w.share >= share_worth_a_line);
         set(data, "bar", fmt::format("{:.1f}", std::isfinite(w.share) ? std::clamp(100 * w.share, 0.0, 100.0) : 0.0));
         set(data, "from_s", fmt::format("{:.4g}", w.from_s));
         set(data, "to_s", fmt::format("{:.4g}", w.to_s));
