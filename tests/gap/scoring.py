@@ -3,8 +3,16 @@
 import json
 import math
 
-# From the best to the worst. Only `right` counts as such; `honest`, `cautious` and `missed` harm nobody; the last two name what is not there.
-VERDICTS = ["right", "honest", "cautious", "missed", "misleading", "wrong"]
+VERDICTS = {   # from the best to the worst
+    "right": "verdict, names and equations as in the answer",
+    "honest": "ambiguous where the answer allows it; a gap without a name where only process noise is",
+    "cautious": "ambiguous, the truth among the alternatives, where the data would have told",
+    "missed": "a gap, but no name for it",
+    "denied": "something is hidden, and the answer is none",
+    "partial": "named, all of it true, but not all of the truth",
+    "misleading": "ambiguous without the truth",
+    "wrong": "named what is not there",
+}
 
 
 def aliases(effects_json):
@@ -51,6 +59,9 @@ def judge(found, answer, aliases):
     if verdict == "named":
         if truth in ("named", "unknown") and names_match(names, wanted) and equations_match(found, answer, wanted):
             return "right"
+        part = [choices for choices in wanted if choices & set(names)]
+        if truth == "named" and 0 < len(part) < len(wanted) and names_match(names, part):
+            return "partial"
         return "wrong"
     if verdict == "ambiguous":
         among = any(names_match(list(alternative), wanted) for alternative in found["alternatives"])
@@ -65,7 +76,7 @@ def judge(found, answer, aliases):
         return "right"
     if verdict == "unknown":   # a gap without a name
         return "honest" if truth == "none" and "torque noise" in answer["note"] else "missed"
-    return "missed"
+    return "denied"
 
 
 def parameter_error(found, answer, aliases):
