@@ -20,15 +20,16 @@ std::vector<std::string> parts(const std::string& text, char separator);
 struct Case {
     std::string name, hidden;
     std::shared_ptr<System> system;
-    Machine machine;                             ///< the true one
-    std::vector<double> believed;                ///< by quantity: what the model file declares known
-    std::vector<std::vector<double>> unspoilt;   ///< by signal: for the check, where the model's language cannot say what is hidden; else empty
-    std::vector<std::vector<double>> measured;   ///< by signal of the model
-    std::vector<double> initial_guess;           ///< by quantity
-    std::vector<double> noise, resolution;       ///< by signal
-    std::vector<double> floor, nominal;          ///< nrmse by scored signal: of the true machine, of the model with true parameters
-    std::vector<double> refitted;                ///< nrmse of the refitted model, to expect before the effect is named
-    std::vector<std::string> rivals;             ///< effects that explain the recording as well
+    Machine machine;               ///< the true one
+    std::vector<double> believed;  ///< by quantity: what the model file declares known
+    std::vector<std::vector<double>>
+        unspoilt;  ///< by signal: for the check, where the model's language cannot say what is hidden; else empty
+    std::vector<std::vector<double>> measured;  ///< by signal of the model
+    std::vector<double> initial_guess;          ///< by quantity
+    std::vector<double> noise, resolution;      ///< by signal
+    std::vector<double> floor, nominal;  ///< nrmse by scored signal: of the true machine, of the model with true parameters
+    std::vector<double> refitted;        ///< nrmse of the refitted model, to expect before the effect is named
+    std::vector<std::string> rivals;     ///< effects that explain the recording as well
     bool ambiguous = false;
     std::string note;
 };

@@ -26,13 +26,14 @@ System dc_motor(const Wish& wish, Random& random, bool angle) {
     const double R = rounded(random.log_uniform(0.4, 4), 2);
     const double L = rounded(R * random.uniform(1.5, 4) * s.period, 2);
     const double K = rounded(random.log_uniform(0.02, 0.15), 2);
-    const double J = rounded(random.log_uniform(0.03, 0.15) * K * K / R, 2);   // mechanical time constant
+    const double J = rounded(random.log_uniform(0.03, 0.15) * K * K / R, 2);  // mechanical time constant
     const bool no_viscous = wish.effect == "viscous_friction", no_emf = wish.effect == "back_emf";
     const double b = rounded(random.log_uniform(0.03, 0.15) * K * K / R, 2);
     const double U = random.log_uniform(6, 40);
     const double current = 0.25 * U / R, speed = 0.4 * U / K;
     // Without the induced voltage the model has b alone to hold the speed: K moves the machine, and is known.
-    s.quantities = {{"R", "ohm", R, wish.one_speed}, {"L", "H", L, true}, {"K", "N.m/A", K, true}, {"J", "kg.m^2", J, wish.one_speed}};
+    s.quantities = {
+        {"R", "ohm", R, wish.one_speed}, {"L", "H", L, true}, {"K", "N.m/A", K, true}, {"J", "kg.m^2", J, wish.one_speed}};
     if (!no_viscous) s.quantities.push_back({"b", "N.m.s/rad", b, wish.one_speed});
     s.inputs = {"u"};
     s.initial = {0, 0, 0};
@@ -47,7 +48,8 @@ System dc_motor(const Wish& wish, Random& random, bool angle) {
         s.initial.resize(2);
         s.typical.resize(2);
     }
-    s.rate = [no_viscous, no_emf, angle](const double* x, const double* u, const double* p, const double* added, double* rate) {
+    s.rate = [no_viscous, no_emf, angle](const double* x, const double* u, const double* p, const double* added,
+                                         double* rate) {
         rate[0] = (u[0] - p[0] * x[0] - (no_emf ? 0.0 : p[2] * x[1]) + added[0]) / p[1];
         rate[1] = (p[2] * x[0] - (no_viscous ? 0.0 : p[4] * x[1]) + added[1]) / p[3];
         if (angle) rate[2] = x[1];
@@ -79,27 +81,35 @@ System pmsm(const Wish& wish, Random& random) {
     const double pp = random.integer(2, 7), psi = rounded(random.log_uniform(0.015, 0.08), 2);
     const double Kt = 1.5 * pp * psi;
     const double current = random.log_uniform(1, 4), speed = random.log_uniform(15, 80);
-    const double J = rounded(Kt * current / (speed * random.uniform(8, 20)), 2);   // reaches its speed in about a tenth of a second
+    const double J =
+        rounded(Kt * current / (speed * random.uniform(8, 20)), 2);  // reaches its speed in about a tenth of a second
     const bool no_viscous = wish.effect == "viscous_friction";
     const double b = rounded(random.uniform(0.1, 0.3) * Kt * current / speed, 2);
-    s.quantities = {{"R", "ohm", R, false}, {"L", "H", L, false}, {"J", "kg.m^2", J, false}, {"pp", "1", pp, true}, {"psi", "Wb", psi, true}};
+    s.quantities = {{"R", "ohm", R, false},
+                    {"L", "H", L, false},
+                    {"J", "kg.m^2", J, false},
+                    {"pp", "1", pp, true},
+                    {"psi", "Wb", psi, true}};
     if (!no_viscous) s.quantities.insert(s.quantities.begin() + 3, {"b", "N.m.s/rad", b, false});
     s.inputs = {"vd", "vq"};
     s.initial = {0, 0, 0, 0};
     s.typical = {current, current, speed, speed};
-    s.signals = {{"vd", "V", -1, 0}, {"vq", "V", -1, 1}, {"id", "A", 0}, {"iq", "A", 1}, {"w", "rad/s", 2}, {"th", "rad", 3, -1, false, 0.001}};
+    s.signals = {{"vd", "V", -1, 0}, {"vq", "V", -1, 1}, {"id", "A", 0},
+                 {"iq", "A", 1},     {"w", "rad/s", 2},  {"th", "rad", 3, -1, false, 0.001}};
     s.equations = {{"voltage balance of id", "id", "L*der(id) = vd - R*id + pp*w*L*iq"},
                    {"voltage balance of iq", "iq", "L*der(iq) = vq - R*iq - pp*w*L*id - pp*w*psi"},
                    {"torque balance of w", "w", no_viscous ? "J*der(w) = 1.5*pp*psi*iq" : "J*der(w) = 1.5*pp*psi*iq - b*w"},
                    {"kinematic of th", "th", "der(th) = w"}};
     s.rate = [no_viscous](const double* x, const double* u, const double* p, const double* added, double* rate) {
-        const double Rs = p[0], Ls = p[1], Js = p[2], bs = no_viscous ? 0 : p[3], poles = p[no_viscous ? 3 : 4], flux = p[no_viscous ? 4 : 5];
+        const double Rs = p[0], Ls = p[1], Js = p[2], bs = no_viscous ? 0 : p[3], poles = p[no_viscous ? 3 : 4],
+                     flux = p[no_viscous ? 4 : 5];
         rate[0] = (u[0] - Rs * x[0] + poles * x[2] * Ls * x[1] + added[0]) / Ls;
         rate[1] = (u[1] - Rs * x[1] - poles * x[2] * Ls * x[0] - poles * x[2] * flux + added[1]) / Ls;
         rate[2] = (1.5 * poles * flux * x[1] - bs * x[2] + added[2]) / Js;
         rate[3] = x[2];
     };
-    Slot d{Kind::voltage, 0, R * current}, q{Kind::voltage, 1, R * current + pp * psi * speed}, torque{Kind::torque, 2, Kt * current * 0.5};
+    Slot d{Kind::voltage, 0, R * current}, q{Kind::voltage, 1, R * current + pp * psi * speed},
+        torque{Kind::torque, 2, Kt * current * 0.5};
     d.current = {0, -1, "id"};
     q.current = {1, -1, "iq"};
     d.angle = q.angle = torque.angle = {3, -1, "th"};
@@ -110,7 +120,8 @@ System pmsm(const Wish& wish, Random& random) {
     std::vector<double> reference = sines(random, n, s.period, 2, 0.4, 3);
     const std::vector<double> level = steps(random, n, s.period, 0.6);
     const bool stepped = random.chance(0.5);
-    for (std::size_t k = 0; k < n; ++k) reference[k] = speed * ((stepped ? 0.6 : 0.9) * reference[k] + (stepped ? 0.7 * level[k] : 0.0));
+    for (std::size_t k = 0; k < n; ++k)
+        reference[k] = speed * ((stepped ? 0.6 : 0.9) * reference[k] + (stepped ? 0.7 * level[k] : 0.0));
     std::vector<double> direct = sines(random, n, s.period, 2, 2, 12);
     for (double& v : direct) v = current * (-0.6 + 0.6 * v);
     const double kv = 1200 * L, step = rounded((R * current + pp * psi * speed) * 1e-3, 1), T = s.period, peak = 3 * current;
@@ -142,7 +153,8 @@ System voice_coil(const Wish& wish, Random& random) {
     const bool no_viscous = wish.effect == "viscous_friction", no_emf = wish.effect == "back_emf";
     const double c = rounded(2 * random.uniform(0.08, 0.2) * m * natural, 2);
     const double U = random.log_uniform(5, 24), force = 0.4 * Kf * U / R;
-    s.quantities = {{"R", "ohm", R, false}, {"L", "H", L, true}, {"Kf", "N/A", Kf, true}, {"m", "kg", m, true}, {"k", "N/m", k, false}};
+    s.quantities = {
+        {"R", "ohm", R, false}, {"L", "H", L, true}, {"Kf", "N/A", Kf, true}, {"m", "kg", m, true}, {"k", "N/m", k, false}};
     if (!no_viscous) s.quantities.push_back({"c", "N.s/m", c, false});
     s.inputs = {"u"};
     s.initial = {0, 0, 0};
@@ -171,7 +183,8 @@ System bridge_load(const Wish& wish, Random& random) {
     s.summary = "inductive load on a half bridge, duty cycle logged, averaged over the switching period";
     s.period = 1e-4;
     s.duration = 1;
-    const double R = rounded(random.log_uniform(0.5, 5), 2), L = rounded(R * random.uniform(3e-3, 12e-3), 2), U = rounded(random.uniform(12, 60), 2);
+    const double R = rounded(random.log_uniform(0.5, 5), 2), L = rounded(R * random.uniform(3e-3, 12e-3), 2),
+                 U = rounded(random.uniform(12, 60), 2);
     s.quantities = {{"R", "ohm", R, false}, {"L", "H", L, false}, {"Vin", "V", U, true}};
     s.inputs = {"d"};
     s.initial = {0};
@@ -184,7 +197,8 @@ System bridge_load(const Wish& wish, Random& random) {
     Slot voltage{Kind::voltage, 0, 0.4 * U};
     voltage.current = {0, -1, "i"};
     s.slots = {voltage};
-    s.experiment = play({scaled(excitation(random, s.samples(), s.period, 3, 60), wish.one_speed ? 0.2 : 0.6, wish.one_speed ? 0.5 : 0.0)});
+    s.experiment = play(
+        {scaled(excitation(random, s.samples(), s.period, 3, 60), wish.one_speed ? 0.2 : 0.6, wish.one_speed ? 0.5 : 0.0)});
     return s;
 }
 

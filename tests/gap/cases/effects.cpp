@@ -11,14 +11,16 @@ namespace algest::gap {
 namespace {
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) text.replace(at, what.size(), with);
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+        text.replace(at, what.size(), with);
     return text;
 }
 
 /// A term of one role, odd or not: f(role value) times the strength.
 using Shape = std::function<double(double value, const double* q)>;
 
-Effect of_role(const std::string& name, const std::vector<std::string>& names, const Role& role, const std::string& formula, Shape shape) {
+Effect of_role(const std::string& name, const std::vector<std::string>& names, const Role& role, const std::string& formula,
+               Shape shape) {
     Effect e;
     e.name = name;
     e.accepted = {name};
@@ -28,7 +30,9 @@ Effect of_role(const std::string& name, const std::vector<std::string>& names, c
     for (const std::string& n : names) text = replaced(text, "<" + n + ">", "x_" + n);
     for (const std::string& n : names) e.formula = replaced(e.formula, "<" + n + ">", n);
     e.texts = {text};
-    e.term = [role, shape](std::size_t, const double* x, const double*, double, const double*, const double* q) { return shape(role.of(x), q); };
+    e.term = [role, shape](std::size_t, const double* x, const double*, double, const double*, const double* q) {
+        return shape(role.of(x), q);
+    };
     return e;
 }
 
@@ -45,7 +49,9 @@ Effect constant(const std::string& name, const std::string& parameter, double si
     e.values = {value};
     e.formula = (sign > 0 ? "+" : "-") + parameter;
     e.texts = {(sign > 0 ? "+x_" : "-x_") + parameter};
-    e.term = [sign](std::size_t, const double*, const double*, double, const double*, const double* q) { return sign * q[0]; };
+    e.term = [sign](std::size_t, const double*, const double*, double, const double*, const double* q) {
+        return sign * q[0];
+    };
     return e;
 }
 
@@ -83,7 +89,9 @@ Effect hysteresis(const Role& speed, const Role& position, double size, double w
     (void)position;
     e.formula = "-Fh*h, Dx*der(h)=v-0.5|v|h-0.5 v|h|";
     e.own = {0};
-    e.term = [](std::size_t, const double*, const double*, double, const double* own, const double* q) { return -q[0] * own[0]; };
+    e.term = [](std::size_t, const double*, const double*, double, const double* own, const double* q) {
+        return -q[0] * own[0];
+    };
     e.own_rate = [speed](const double* x, const double*, const double* own, const double* q, double* rate) {
         const double v = speed.of(x);
         rate[0] = (v - 0.5 * std::abs(v) * own[0] - 0.5 * v * std::abs(own[0])) / q[1];
@@ -108,10 +116,10 @@ std::string Effect::equations(const System& system) const {
 }
 
 const std::vector<std::string>& term_effects() {
-    static const std::vector<std::string> names = {"coulomb_friction", "viscous_friction", "quadratic_drag", "constant_load", "gravity_sin",
-                                                   "cogging_torque", "sinusoidal_disturbance", "cubic_stiffness", "voltage_offset",
-                                                   "inverter_dead_time", "back_emf", "orifice_leak", "laminar_leak", "quadratic_input",
-                                                   "ambient_offset"};
+    static const std::vector<std::string> names = {
+        "coulomb_friction", "viscous_friction",       "quadratic_drag",  "constant_load",   "gravity_sin",
+        "cogging_torque",   "sinusoidal_disturbance", "cubic_stiffness", "voltage_offset",  "inverter_dead_time",
+        "back_emf",         "orifice_leak",           "laminar_leak",    "quadratic_input", "ambient_offset"};
     return names;
 }
 
@@ -126,14 +134,16 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
     if (mechanical && s.speed.given()) {
         const double width = eps(s.speed), v = size_of(s.speed, scale);
         if (name == "coulomb_friction") {
-            e = of_role(name, {"Tc"}, s.speed, "-<Tc>*sgn($)", [width](double x, const double* q) { return -q[0] * std::tanh(x / width); });
+            e = of_role(name, {"Tc"}, s.speed, "-<Tc>*sgn($)",
+                        [width](double x, const double* q) { return -q[0] * std::tanh(x / width); });
             e->values = {start};
         } else if (name == "viscous_friction") {
             e = of_role(name, {"b"}, s.speed, "-<b>*$", [](double x, const double* q) { return -q[0] * x; });
             e->values = {s.viscous > 0 ? s.viscous : start / v};
-            e->tuned = s.viscous <= 0;   // an oscillator with next to no damping is no model that a person would start from
+            e->tuned = s.viscous <= 0;  // an oscillator with next to no damping is no model that a person would start from
         } else if (name == "quadratic_drag") {
-            e = of_role(name, {"kq"}, s.speed, "-<kq>*$*abs($)", [](double x, const double* q) { return -q[0] * x * std::abs(x); });
+            e = of_role(name, {"kq"}, s.speed, "-<kq>*$*abs($)",
+                        [](double x, const double* q) { return -q[0] * x * std::abs(x); });
             e->values = {start / (v * v)};
         } else if (name == "cubic_damping") {
             e = of_role(name, {"c3"}, s.speed, "-<c3>*$^3", [](double x, const double* q) { return -q[0] * x * x * x; });
@@ -147,7 +157,8 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
         e = constant(name, "T0", -1, start);
         e->strength_sign = random.sign();
     }
-    if (mechanical && name == "sinusoidal_disturbance") e = disturbance(start, rounded(random.log_uniform(8 / T, 60 / T), 3), rounded(random.uniform(-3, 3), 2));
+    if (mechanical && name == "sinusoidal_disturbance")
+        e = disturbance(start, rounded(random.log_uniform(8 / T, 60 / T), 3), rounded(random.uniform(-3, 3), 2));
     if (mechanical && s.position.given()) {
         const double x = size_of(s.position, scale);
         if (name == "cubic_stiffness") {
@@ -155,9 +166,9 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
             e->values = {start / (x * x * x)};
             e->strength_sign = random.chance(0.7) ? 1 : -1;
         } else if (name == "hard_stop") {
-            e = of_role(name, {"kw", "xw"}, s.position, "-<kw>*max($-<xw>,0)-<kw>*min($+<xw>,0)", [](double v, const double* q) {
-                return -q[0] * (std::max(v - q[1], 0.0) + std::min(v + q[1], 0.0));
-            });
+            e = of_role(
+                name, {"kw", "xw"}, s.position, "-<kw>*max($-<xw>,0)-<kw>*min($+<xw>,0)",
+                [](double v, const double* q) { return -q[0] * (std::max(v - q[1], 0.0) + std::min(v + q[1], 0.0)); });
             e->values = {10 * start / x, rounded(random.uniform(1.0, 1.5) * x, 2)};
             e->in_library = false;
         }
@@ -171,7 +182,8 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
                         [](double x, const double* q) { return -q[0] * std::sin(q[1] * x + q[2]); });
             // As fast a wave as the sampling can follow at most speeds.
             const double highest = 0.25 * 2 * M_PI / (system.period * scale[static_cast<std::size_t>(s.speed.state)]);
-            e->values = {start, static_cast<double>(random.integer(4, std::clamp(static_cast<int>(highest), 6, 48))), rounded(random.uniform(-3, 3), 2)};
+            e->values = {start, static_cast<double>(random.integer(4, std::clamp(static_cast<int>(highest), 6, 48))),
+                         rounded(random.uniform(-3, 3), 2)};
         }
     }
     if (s.kind == Kind::voltage) {
@@ -180,7 +192,8 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
             e->strength_sign = random.sign();
         } else if (name == "inverter_dead_time" && s.current.given() && !s.angle.given()) {
             const double width = eps(s.current);
-            e = of_role(name, {"Vd"}, s.current, "-<Vd>*sgn($)", [width](double x, const double* q) { return -q[0] * std::tanh(x / width); });
+            e = of_role(name, {"Vd"}, s.current, "-<Vd>*sgn($)",
+                        [width](double x, const double* q) { return -q[0] * std::tanh(x / width); });
             e->values = {start};
         } else if (name == "inverter_dead_time" && slot == 0) {
             return three_phase_dead_time(system, scale);
@@ -192,7 +205,8 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
     if (s.kind == Kind::flow && s.level.given()) {
         const double level = size_of(s.level, scale);
         if (name == "orifice_leak") {
-            e = of_role(name, {"kl"}, s.level, "-<kl>*sqrt($)", [](double x, const double* q) { return -q[0] * std::sqrt(std::max(x, 0.0)); });
+            e = of_role(name, {"kl"}, s.level, "-<kl>*sqrt($)",
+                        [](double x, const double* q) { return -q[0] * std::sqrt(std::max(x, 0.0)); });
             e->values = {start / std::sqrt(level)};
         } else if (name == "laminar_leak") {
             e = of_role(name, {"kl"}, s.level, "-<kl>*$", [](double x, const double* q) { return -q[0] * x; });
@@ -208,12 +222,13 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
             e = constant(name, "k2", 1, start);
             e->formula = "+k2*" + system.inputs[static_cast<std::size_t>(input)] + "^2";
             e->texts = {"+x_k2*" + system.inputs[static_cast<std::size_t>(input)] + "^2"};
-            e->term = [input](std::size_t, const double*, const double* u, double, const double*, const double* q) { return q[0] * u[input] * u[input]; };
+            e->term = [input](std::size_t, const double*, const double* u, double, const double*, const double* q) {
+                return q[0] * u[input] * u[input];
+            };
             e->values = {start / 100};
         } else if (name == "radiation" && s.position.given()) {
-            e = of_role(name, {"sigma", "zero"}, s.position, "-<sigma>*($-<zero>)^4+<sigma>*295^4", [](double x, const double* q) {
-                return -q[0] * (std::pow(x - q[1], 4) - std::pow(295.0, 4));
-            });
+            e = of_role(name, {"sigma", "zero"}, s.position, "-<sigma>*($-<zero>)^4+<sigma>*295^4",
+                        [](double x, const double* q) { return -q[0] * (std::pow(x - q[1], 4) - std::pow(295.0, 4)); });
             e->values = {start / 4e9, -273.15};
             e->in_library = false;
         }

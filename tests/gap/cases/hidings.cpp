@@ -18,8 +18,10 @@ bool needs_wish(const std::string& name) { return name == "viscous_friction" || 
 std::vector<std::string> parts(const std::string& text, char separator) {
     std::vector<std::string> out{""};
     for (const char c : text) {
-        if (c == separator) out.emplace_back();
-        else out.back() += c;
+        if (c == separator)
+            out.emplace_back();
+        else
+            out.back() += c;
     }
     return out;
 }
@@ -31,13 +33,15 @@ std::vector<std::string> hidings(const std::string& family, bool structural) {
     if (structural) {
         for (const std::string& name : structural_effects()) {
             for (int index = 0; index < 8; ++index) {
-                if (structural_effect(name, plain, index, plain.typical, random)) out.push_back(name + "@" + std::to_string(index));
+                if (structural_effect(name, plain, index, plain.typical, random))
+                    out.push_back(name + "@" + std::to_string(index));
             }
         }
         for (std::size_t q = 0; q < plain.quantities.size(); ++q) {
             // Only what scales the machine: a number of poles or a gain of the controller is never wrong.
             const std::string& name = plain.quantities[q].name;
-            if (plain.quantities[q].known && name != "pp" && name != "Kp" && name != "Kd") out.push_back("parameter_error@" + std::to_string(q));
+            if (plain.quantities[q].known && name != "pp" && name != "Kp" && name != "Kd")
+                out.push_back("parameter_error@" + std::to_string(q));
         }
         return out;
     }
@@ -49,7 +53,7 @@ std::vector<std::string> hidings(const std::string& family, bool structural) {
     std::vector<std::string> names = term_effects();
     names.insert(names.end(), unheld.begin(), unheld.end());
     for (const std::string& name : names) {
-        if (needs_wish(name) && family == "mb") continue;   // its model has no such term to leave out
+        if (needs_wish(name) && family == "mb") continue;  // its model has no such term to leave out
         const System system = build(family, {name, false}, random);
         for (int slot = 0; slot < static_cast<int>(system.slots.size()); ++slot) {
             if (effect(name, system, slot, system.typical, random)) singles.push_back(name + "@" + std::to_string(slot));
@@ -60,7 +64,8 @@ std::vector<std::string> hidings(const std::string& family, bool structural) {
     std::vector<std::string> plainly;
     for (const std::string& s : singles) {
         const std::string name = parts(s, '@')[0];
-        if (!needs_wish(name) && name != "gravity_sin" && std::count(unheld.begin(), unheld.end(), name) == 0) plainly.push_back(s);
+        if (!needs_wish(name) && name != "gravity_sin" && std::count(unheld.begin(), unheld.end(), name) == 0)
+            plainly.push_back(s);
     }
     for (std::size_t i = 0; i + 1 < plainly.size(); i += 2) {
         const std::size_t j = plainly.size() - 1 - i / 2;

@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
     try {
         if (argc == 2 && (std::string(argv[1]) == "--terms" || std::string(argv[1]) == "--structural")) {
             for (const std::string& family : families()) {
-                for (const std::string& hidden : hidings(family, std::string(argv[1]) == "--structural")) std::printf("%s %s\n", family.c_str(), hidden.c_str());
+                for (const std::string& hidden : hidings(family, std::string(argv[1]) == "--structural"))
+                    std::printf("%s %s\n", family.c_str(), hidden.c_str());
             }
             return 0;
         }

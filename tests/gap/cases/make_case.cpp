@@ -12,20 +12,88 @@ namespace algest::gap {
 
 namespace {
 
-constexpr double resolution_share = 0.8;   ///< resolution over noise, as in the open cases
+constexpr double resolution_share = 0.8;  ///< resolution over noise, as in the open cases
+
+/// What the true machine, the model with true parameters, and the refitted model leave.
+struct Fits {
+    const Fitted &ideal, &nominal, &refitted;
+};
+
+/// The recording, as sensors with noise and resolution show it, and the errors of `fits` with that noise on top.
+void measure(Case& made, const Run& run, const Truth& truth, const Fits& fits, Random& random) {
+    const System& system = *made.system;
+    const Machine& machine = made.machine;
+    const bool coloured = made.hidden == "none_coloured", one_speed = made.hidden == "one_speed";
+    const bool spoilt = std::any_of(machine.effects.begin(), machine.effects.end(), [](const Effect& e) {
+        return e.signal >= 0 || (!e.inputs.empty() && e.input_texts.empty());
+    });
+    std::size_t output = 0;
+    for (std::size_t index = 0; index < system.signals.size(); ++index) {
+        const Signal& s = system.signals[index];
+        std::vector<double> column, check;
+        double noise = 0, resolution = 0;
+        if (s.input >= 0) {
+            const auto i = static_cast<std::size_t>(s.input);
+            for (const auto& u : run.inputs) column.push_back(rounded(u[i], 7));
+            check = column;
+            for (const Effect& e : machine.effects) {
+                const auto at = std::find(e.inputs.begin(), e.inputs.end(), s.input);
+                if (at == e.inputs.end() || !e.input_texts.empty()) continue;
+                for (std::size_t k = 0; k < column.size(); ++k) {
+                    check[k] =
+                        e.arrives(static_cast<std::size_t>(at - e.inputs.begin()), run.inputs, k, nullptr, e.values.data());
+                }
+            }
+        } else {
+            const std::vector<double> exact = shown(machine, run, index);
+            std::vector<double> real;
+            for (const State& x : run.states) real.push_back(x[static_cast<std::size_t>(s.state)]);
+            // A constant speed has no size to speak of: a share of its mean then, but a small one.
+            noise = rounded(
+                s.noise > 0 ? s.noise : (one_speed && system.family == "dc" ? 0.2 : 1) * sensor_share * size_of(exact), 3);
+            resolution = rounded(resolution_share * noise, 2);
+            double colour = 0;
+            for (std::size_t k = 0; k < exact.size(); ++k) {
+                const double white = random.normal();
+                colour = coloured ? 0.9 * colour + std::sqrt(1 - 0.81) * white : white;
+                column.push_back(resolution * std::round((exact[k] + noise * colour) / resolution));
+                check.push_back(real[k] + column[k] - exact[k]);
+            }
+            if (s.scored) {
+                double square = 0;
+                for (std::size_t k = 0; k < column.size(); ++k)
+                    square += (column[k] - exact[k]) * (column[k] - exact[k]) / static_cast<double>(column.size());
+                const double size = size_of(column), own = square / (size * size), unit = truth.sigma[output] / size;
+                const auto together = [&](const Fitted& f) { return std::sqrt(own + std::pow(f.rms[output] * unit, 2)); };
+                made.floor.push_back(together(fits.ideal));
+                made.nominal.push_back(together(fits.nominal));
+                made.refitted.push_back(together(fits.refitted));
+                ++output;
+            }
+        }
+        made.measured.push_back(column);
+        if (spoilt) made.unspoilt.push_back(check);
+        made.noise.push_back(noise);
+        made.resolution.push_back(resolution);
+    }
+}
 
 }  // namespace
 
 Case make_case(const std::string& family, const std::string& hidden, std::uint64_t seed) {
     Random random(family + "/" + hidden, seed);
-    const bool one_speed = hidden == "one_speed", nothing = hidden.rfind("none", 0) == 0, wrong_value = hidden.rfind("parameter_error@", 0) == 0;
+    const bool one_speed = hidden == "one_speed", nothing = hidden.rfind("none", 0) == 0,
+               wrong_value = hidden.rfind("parameter_error@", 0) == 0;
     std::vector<std::string> wanted;
-    if (one_speed) wanted = {family == "rl" ? "inverter_dead_time@0" : "coulomb_friction@1"};
-    else if (!nothing && !wrong_value) wanted = parts(hidden, '+');
+    if (one_speed)
+        wanted = {family == "rl" ? "inverter_dead_time@0" : "coulomb_friction@1"};
+    else if (!nothing && !wrong_value)
+        wanted = parts(hidden, '+');
     Case made;
     made.hidden = hidden;
     made.name = family + "_" + std::to_string(seed);
-    made.system = std::make_shared<System>(build(family, {wanted.empty() ? "" : parts(wanted[0], '@')[0], one_speed}, random));
+    made.system =
+        std::make_shared<System>(build(family, {wanted.empty() ? "" : parts(wanted[0], '@')[0], one_speed}, random));
     System& system = *made.system;
     std::vector<double> p;
     for (const Quantity& q : system.quantities) p.push_back(q.value);
@@ -91,67 +159,24 @@ Case make_case(const std::string& family, const std::string& hidden, std::uint64
             const bool sensor = wrong_value || machine.effects[0].signal >= 0;
             if (sensor && found.same) {
                 made.ambiguous = true;
-                made.rivals.push_back(wrong_value ? "parameter_error" : machine.effects[0].name);
+                const std::string own = wrong_value ? "parameter_error" : machine.effects[0].name;
+                if (!std::count(made.rivals.begin(), made.rivals.end(), own)) made.rivals.push_back(own);
                 made.note = "no sensor tells a wrong constant from a wrong sensor";
             }
-            if (!wrong_value && !machine.effects[0].in_library && !found.names.empty()) throw std::runtime_error("a usual effect explains it as well");
+            if (!wrong_value && !machine.effects[0].in_library && !found.names.empty())
+                throw std::runtime_error("a usual effect explains it as well");
         }
     }
     Machine oracle = machine;
     oracle.process_noise.clear();
     const Fitted ideal = refit(oracle, truth, 0);
 
-    // The sensors.
-    const bool coloured = hidden == "none_coloured";
-    const bool spoilt = std::any_of(machine.effects.begin(), machine.effects.end(), [](const Effect& e) { return e.signal >= 0 || (e.input >= 0 && e.input_text.empty()); });
-    std::size_t output = 0;
-    for (std::size_t index = 0; index < system.signals.size(); ++index) {
-        const Signal& s = system.signals[index];
-        std::vector<double> column, check;
-        double noise = 0, resolution = 0;
-        if (s.input >= 0) {
-            const auto i = static_cast<std::size_t>(s.input);
-            for (const auto& u : run.inputs) column.push_back(rounded(u[i], 7));
-            check = column;
-            for (const Effect& e : machine.effects) {
-                if (e.input != s.input || !e.input_text.empty()) continue;
-                for (std::size_t k = 0; k < column.size(); ++k) {
-                    check[k] = e.arrives(run.inputs, k, nullptr, e.values.data());
-                }
-            }
-        } else {
-            const std::vector<double> exact = shown(machine, run, index);
-            std::vector<double> real;
-            for (const State& x : run.states) real.push_back(x[static_cast<std::size_t>(s.state)]);
-            // A constant speed has no size to speak of: a share of its mean then, but a small one.
-            noise = rounded(s.noise > 0 ? s.noise : (one_speed && family == "dc" ? 0.2 : 1) * sensor_share * size_of(exact), 3);
-            resolution = rounded(resolution_share * noise, 2);
-            double colour = 0;
-            for (std::size_t k = 0; k < exact.size(); ++k) {
-                const double white = random.normal();
-                colour = coloured ? 0.9 * colour + std::sqrt(1 - 0.81) * white : white;
-                column.push_back(resolution * std::round((exact[k] + noise * colour) / resolution));
-                check.push_back(real[k] + column[k] - exact[k]);
-            }
-            if (s.scored) {
-                double square = 0;
-                for (std::size_t k = 0; k < column.size(); ++k) square += (column[k] - exact[k]) * (column[k] - exact[k]) / static_cast<double>(column.size());
-                const double size = size_of(column), own = square / (size * size), unit = truth.sigma[output] / size;
-                const auto together = [&](const Fitted& f) { return std::sqrt(own + std::pow(f.rms[output] * unit, 2)); };
-                made.floor.push_back(together(ideal));
-                made.nominal.push_back(together(nominal));
-                made.refitted.push_back(together(refitted));
-                ++output;
-            }
-        }
-        made.measured.push_back(column);
-        if (spoilt) made.unspoilt.push_back(check);
-        made.noise.push_back(noise);
-        made.resolution.push_back(resolution);
-    }
-    for (const Quantity& q : system.quantities) made.initial_guess.push_back(rounded(q.value * (1 + random.sign() * random.uniform(0.05, 0.25)), 4));
-    if (coloured) made.note = "trap: coloured sensor noise, model is right";
-    if (hidden == "none_process") made.note = "trap: no missing effect, but unmeasured torque noise; right: none, or unexplained without a name";
+    measure(made, run, truth, {ideal, nominal, refitted}, random);
+    for (const Quantity& q : system.quantities)
+        made.initial_guess.push_back(rounded(q.value * (1 + random.sign() * random.uniform(0.05, 0.25)), 4));
+    if (hidden == "none_coloured") made.note = "trap: coloured sensor noise, model is right";
+    if (hidden == "none_process")
+        made.note = "trap: no missing effect, but unmeasured torque noise; right: none, or unexplained without a name";
     return made;
 }
 

@@ -28,14 +28,17 @@ System pump(const Wish& wish, Random& random) {
     s.summary = "DC motor driving a fixed-displacement hydraulic pump against a controlled valve";
     s.period = 1e-3;
     s.duration = random.integer(8, 12);
-    const double R = rounded(random.uniform(0.5, 1.2), 2), L = rounded(R * random.uniform(2.5e-3, 5e-3), 2), K = rounded(random.uniform(0.2, 0.4), 2);
-    const double J = rounded(random.uniform(0.015, 0.03) * K * K / R, 2), b = rounded(random.uniform(0.015, 0.03) * K * K / R, 2);
+    const double R = rounded(random.uniform(0.5, 1.2), 2), L = rounded(R * random.uniform(2.5e-3, 5e-3), 2),
+                 K = rounded(random.uniform(0.2, 0.4), 2);
+    const double J = rounded(random.uniform(0.015, 0.03) * K * K / R, 2),
+                 b = rounded(random.uniform(0.015, 0.03) * K * K / R, 2);
     const double D = rounded(random.uniform(0.3, 0.8), 2), C = rounded(random.uniform(3, 8), 2);
     const double speed = random.uniform(80, 150), pressure = random.uniform(0.6, 1.5);
     const double kv = rounded(D * speed / std::sqrt(pressure), 2), current = D * pressure / K;
     const double U = K * speed + R * current;
-    s.quantities = {{"R", "ohm", R, false}, {"L", "H", L, true}, {"K", "N.m/A", K, true}, {"J", "kg.m^2", J, false}, {"b", "N.m.s/rad", b, false},
-                    {"D", "cm^3/rad", D, true}, {"C", "cm^3/MPa", C, false}, {"kv", "", kv, false}};
+    s.quantities = {{"R", "ohm", R, false},      {"L", "H", L, true},          {"K", "N.m/A", K, true},
+                    {"J", "kg.m^2", J, false},   {"b", "N.m.s/rad", b, false}, {"D", "cm^3/rad", D, true},
+                    {"C", "cm^3/MPa", C, false}, {"kv", "", kv, false}};
     (void)wish;
     s.inputs = {"u", "s"};
     s.initial = {0, 0, 1e-4};
@@ -73,7 +76,8 @@ System thermal(const Wish& wish, Random& random, int masses) {
     const double rise = random.uniform(25, 60), U = random.uniform(8, 24), gain = rounded(loss * rise / (0.5 * U), 2);
     const double ambient = random.integer(18, 26);
     s.inputs = {"u"};
-    s.quantities = {{"C1", "J/K", C1, false}, {"h", "W/K", loss, false}, {"kh", "W/V", gain, false}, {"Ta", "degC", ambient, true}};
+    s.quantities = {
+        {"C1", "J/K", C1, false}, {"h", "W/K", loss, false}, {"kh", "W/V", gain, false}, {"Ta", "degC", ambient, true}};
     s.signals = {{"u", "V", -1, 0}, {"T1", "degC", 0}};
     Slot heat{Kind::heat, 0, loss * rise};
     heat.input = 0;
@@ -118,10 +122,15 @@ System tanks(const Wish& wish, Random& random) {
     const double A1 = rounded(random.log_uniform(0.005, 0.05), 2), A2 = rounded(A1 * random.uniform(0.7, 1.5), 2);
     const double level = random.uniform(0.15, 0.5), tau = random.uniform(8, 25);
     s.duration = std::round(tau * random.uniform(12, 22));
-    const double flow = A1 * level / tau, a1 = rounded(flow / std::sqrt(level), 2), a2 = rounded(a1 * random.uniform(0.8, 1.2), 2);
+    const double flow = A1 * level / tau, a1 = rounded(flow / std::sqrt(level), 2),
+                 a2 = rounded(a1 * random.uniform(0.8, 1.2), 2);
     const double U = random.uniform(4, 10), kp = rounded(flow / U, 2);
     const double h1 = rounded(level * random.uniform(0.6, 1.2), 2), h2 = rounded(level * random.uniform(0.6, 1.2), 2);
-    s.quantities = {{"a1", "", a1, false}, {"a2", "", a2, false}, {"kp", "m^3/s/V", kp, false}, {"S1", "m^2", A1, true}, {"S2", "m^2", A2, true}};
+    s.quantities = {{"a1", "", a1, false},
+                    {"a2", "", a2, false},
+                    {"kp", "m^3/s/V", kp, false},
+                    {"S1", "m^2", A1, true},
+                    {"S2", "m^2", A2, true}};
     (void)wish;
     s.inputs = {"u"};
     s.initial = {h1, h2};
@@ -137,9 +146,10 @@ System tanks(const Wish& wish, Random& random) {
     Slot upper{Kind::flow, 0, flow}, lower{Kind::flow, 1, flow};
     upper.level = {0, -1, "h1"};
     lower.level = {1, -1, "h2"};
-    lower.excluded = {"orifice_leak"};   // the same term as the outlet
+    lower.excluded = {"orifice_leak"};  // the same term as the outlet
     s.slots = {upper, lower};
-    s.experiment = play({above(scaled(excitation(random, s.samples(), s.period, 0.15 / tau, 3 / tau), 0.45 * U, 1.1 * U), 0.3 * U)});
+    s.experiment =
+        play({above(scaled(excitation(random, s.samples(), s.period, 0.15 / tau, 3 / tau), 0.45 * U, 1.1 * U), 0.3 * U)});
     return s;
 }
 

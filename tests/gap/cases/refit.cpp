@@ -15,7 +15,10 @@ using Eigen::VectorXd;
 /// A value of the machine that a fit may move, and its size.
 struct Free {
     int quantity = -1, effect = -1;
-    double& in(Machine& m) const { return quantity >= 0 ? m.p[static_cast<std::size_t>(quantity)] : m.effects[static_cast<std::size_t>(effect)].values[0]; }
+    double& in(Machine& m) const {
+        return quantity >= 0 ? m.p[static_cast<std::size_t>(quantity)]
+                             : m.effects[static_cast<std::size_t>(effect)].values[0];
+    }
 };
 
 std::vector<Free> free_values(const Machine& machine) {
@@ -51,7 +54,8 @@ MatrixXd sensitivities(const Machine& model, const Truth& truth, const std::vect
         double& value = free[f].in(moved);
         value += 1e-4 * value;
         const VectorXd there = residual(moved, truth);
-        J.col(static_cast<Eigen::Index>(f)) = there.size() == here.size() ? VectorXd((there - here) / 1e-4) : VectorXd(VectorXd::Zero(here.size()));
+        J.col(static_cast<Eigen::Index>(f)) =
+            there.size() == here.size() ? VectorXd((there - here) / 1e-4) : VectorXd(VectorXd::Zero(here.size()));
     }
     return J;
 }
@@ -65,7 +69,9 @@ VectorXd least_squares(const MatrixXd& J, const VectorXd& r) {
 std::vector<double> by_output(const VectorXd& r, std::size_t outputs) {
     std::vector<double> out;
     const Eigen::Index samples = r.size() / static_cast<Eigen::Index>(outputs);
-    for (std::size_t o = 0; o < outputs; ++o) out.push_back(std::sqrt(r.segment(static_cast<Eigen::Index>(o) * samples, samples).squaredNorm() / static_cast<double>(samples)));
+    for (std::size_t o = 0; o < outputs; ++o)
+        out.push_back(std::sqrt(r.segment(static_cast<Eigen::Index>(o) * samples, samples).squaredNorm() /
+                                static_cast<double>(samples)));
     return out;
 }
 
@@ -84,7 +90,8 @@ std::vector<double> shown(const Machine& machine, const Run& run, std::size_t si
 std::vector<std::vector<double>> scored(const Machine& machine, const Run& run) {
     std::vector<std::vector<double>> out;
     for (std::size_t s = 0; s < machine.system->signals.size(); ++s) {
-        if (machine.system->signals[s].state >= 0 && machine.system->signals[s].scored) out.push_back(shown(machine, run, s));
+        if (machine.system->signals[s].state >= 0 && machine.system->signals[s].scored)
+            out.push_back(shown(machine, run, s));
     }
     return out;
 }
@@ -119,7 +126,8 @@ Fitted refit(Machine model, const Truth& truth, int iterations) {
     return {model, by_output(r, truth.outputs.size()), true};
 }
 
-std::vector<double> left_with(const Fitted& fitted, const Truth& truth, const std::vector<std::function<void(Machine&)>>& nudges) {
+std::vector<double> left_with(const Fitted& fitted, const Truth& truth,
+                              const std::vector<std::function<void(Machine&)>>& nudges) {
     const VectorXd r = residual(fitted.model, truth);
     const std::vector<Free> free = free_values(fitted.model);
     MatrixXd J = sensitivities(fitted.model, truth, free, r);

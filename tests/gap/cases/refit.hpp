@@ -23,7 +23,7 @@ std::vector<std::vector<double>> scored(const Machine& machine, const Run& run);
 
 struct Fitted {
     Machine model;
-    std::vector<double> rms;   ///< by output: what is left, in sensor noises
+    std::vector<double> rms;  ///< by output: what is left, in sensor noises
     bool finite;
     double worst() const;
 };
@@ -32,6 +32,7 @@ struct Fitted {
 Fitted refit(Machine model, const Truth& truth, int iterations);
 
 /// What would be left, worst output, if one thing more were free, to first order, for each of `nudges`, which moves that thing a little.
-std::vector<double> left_with(const Fitted& fitted, const Truth& truth, const std::vector<std::function<void(Machine&)>>& nudges);
+std::vector<double> left_with(const Fitted& fitted, const Truth& truth,
+                              const std::vector<std::function<void(Machine&)>>& nudges);
 
 }  // namespace algest::gap

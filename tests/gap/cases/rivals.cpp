@@ -7,7 +7,7 @@ namespace algest::gap {
 
 namespace {
 
-constexpr double indistinct = 0.25;   ///< what a rival may leave, in sensor noises, and still explain as well
+constexpr double indistinct = 0.25;  ///< what a rival may leave, in sensor noises, and still explain as well
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, 
         if (!rival) return;
         if (!machine.effects.empty()) {
             const Effect& hidden = machine.effects.back();
-            if (rival->name == hidden.name && (rival->signal == hidden.signal && rival->input == hidden.input)) {
+            if (rival->name == hidden.name && (rival->signal == hidden.signal && rival->inputs == hidden.inputs)) {
                 if (hidden.slots.empty() || std::count(hidden.slots.begin(), hidden.slots.end(), index)) return;
             }
         }
@@ -33,12 +33,14 @@ Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, 
     };
     for (int slot = 0; slot < static_cast<int>(system.slots.size()); ++slot) {
         for (const std::string& name : term_effects()) {
-            if (name == "cogging_torque" || name == "sinusoidal_disturbance") continue;   // with their free frequency they are no line
+            if (name == "cogging_torque" || name == "sinusoidal_disturbance")
+                continue;  // with their free frequency they are no line
             add(effect(name, system, slot, scale, random), slot);
         }
     }
     for (int index = 0; index < 8; ++index) {
-        for (const char* name : {"input_delay", "actuator_lag", "sensor_gain", "sensor_bias"}) add(structural_effect(name, system, index, scale, random), index);
+        for (const char* name : {"input_delay", "actuator_lag", "sensor_gain", "sensor_bias"})
+            add(structural_effect(name, system, index, scale, random), index);
     }
     for (std::size_t q = 0; q < system.quantities.size(); ++q) {
         if (!system.quantities[q].known || model.p[q] != machine.p[q]) continue;

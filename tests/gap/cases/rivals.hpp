@@ -9,8 +9,8 @@
 namespace algest::gap {
 
 struct Rivals {
-    std::vector<std::string> names;   ///< things of a usual library, without the hidden one
-    bool same = false;                ///< one of them is the same to the last bit
+    std::vector<std::string> names;  ///< things of a usual library, without the hidden one
+    bool same = false;               ///< one of them is the same to the last bit
 };
 
 /// `machine` is the true one, `model` the one without what is hidden.

@@ -16,7 +16,11 @@ namespace odeint = boost::numeric::odeint;
 class Motion {
 public:
     explicit Motion(const Machine& machine)
-        : machine_(machine), count_(machine.system->initial.size()), x_(count_), rate_(count_), added_(machine.system->slots.size()) {}
+        : machine_(machine),
+          count_(machine.system->initial.size()),
+          x_(count_),
+          rate_(count_),
+          added_(machine.system->slots.size()) {}
 
     void at(std::size_t sample, const std::vector<std::vector<double>>& commanded) {
         sample_ = sample;
@@ -27,18 +31,26 @@ public:
 
     void operator()(const State& z, State& dz, double t) {
         for (std::size_t i = 0; i < count_; ++i) x_[i] = z[i] * machine_.scale[i];
-        for (std::size_t s = 0; s < added_.size(); ++s) added_[s] = machine_.process_noise.empty() || machine_.process_noise[s].empty() ? 0.0 : machine_.process_noise[s][sample_];
+        for (std::size_t s = 0; s < added_.size(); ++s)
+            added_[s] = machine_.process_noise.empty() || machine_.process_noise[s].empty()
+                            ? 0.0
+                            : machine_.process_noise[s][sample_];
         std::size_t own = count_;
         for (const Effect& e : machine_.effects) {
-            if (e.arrives) u_[static_cast<std::size_t>(e.input)] = e.arrives(*commanded_, sample_, z.data() + own, e.values.data());
+            for (std::size_t w = 0; w < e.inputs.size(); ++w) {
+                u_[static_cast<std::size_t>(e.inputs[w])] =
+                    e.arrives(w, *commanded_, sample_, z.data() + own, e.values.data());
+            }
             own += e.own.size();
         }
         own = count_;
         for (const Effect& e : machine_.effects) {
             for (std::size_t w = 0; w < e.slots.size(); ++w) {
-                added_[static_cast<std::size_t>(e.slots[w])] += e.term(w, x_.data(), u_.data(), start_ + t, z.data() + own, e.values.data());
+                added_[static_cast<std::size_t>(e.slots[w])] +=
+                    e.term(w, x_.data(), u_.data(), start_ + t, z.data() + own, e.values.data());
             }
-            if (e.own_rate) e.own_rate(x_.data(), commanded_->back().data(), z.data() + own, e.values.data(), dz.data() + own);
+            if (e.own_rate)
+                e.own_rate(x_.data(), commanded_->back().data(), z.data() + own, e.values.data(), dz.data() + own);
             own += e.own.size();
         }
         machine_.system->rate(x_.data(), u_.data(), machine_.p.data(), added_.data(), rate_.data());
@@ -50,21 +62,21 @@ private:
     std::size_t count_, sample_ = 0;
     double start_ = 0;
     State x_, rate_, added_;
-    std::vector<double> u_;                                        ///< as they arrive
+    std::vector<double> u_;  ///< as they arrive
     const std::vector<std::vector<double>>* commanded_ = nullptr;
 };
 
 /// One sample ahead; false where it diverges.
 template <class Stepper>
 bool advance(Stepper& stepper, Motion& motion, State& z, double period, double& step) {
-    stepper.reset();   // inputs jump here: what the last step left at its end is stale
+    stepper.reset();  // inputs jump here: what the last step left at its end is stale
     double t = 0;
     for (int steps = 0; period - t > 1e-12 * period; ++steps) {
         if (steps > 20000) return false;
         double h = std::min(step, period - t);
         const bool whole = h == step;
         const auto result = stepper.try_step(std::ref(motion), z, t, h);
-        if (result == odeint::success && !whole) continue;   // cut short by the sample: says nothing about the step
+        if (result == odeint::success && !whole) continue;  // cut short by the sample: says nothing about the step
         step = h;
     }
     for (const double v : z) {
@@ -88,13 +100,17 @@ Run run(const Machine& machine, const std::vector<std::vector<double>>* replayed
     std::vector<double> u(system.inputs.size());
     for (std::size_t k = 0; k < system.samples(); ++k) {
         for (std::size_t i = 0; i < x.size(); ++i) x[i] = z[i] * machine.scale[i];
-        if (replayed) u = (*replayed)[k];
-        else controller(k, x, u);
+        if (replayed)
+            u = (*replayed)[k];
+        else
+            controller(k, x, u);
         if (!replayed) {
             for (double& v : u) v = rounded(v, 7);
         }
         // The law is computed with what the recording holds of its other inputs; the amplifier has no rounding.
-        if (system.feedback) u[static_cast<std::size_t>(system.feedback->input)] = system.feedback->value(x.data(), u.data(), machine.p.data());
+        if (system.feedback)
+            u[static_cast<std::size_t>(system.feedback->input)] =
+                system.feedback->value(x.data(), u.data(), machine.p.data());
         out.states.push_back(x);
         out.inputs.push_back(u);
         motion.at(k, out.inputs);

@@ -11,10 +11,10 @@ namespace algest::gap {
 /// A machine: the system with values of its quantities and effects.
 struct Machine {
     const System* system;
-    std::vector<double> p;             ///< by quantity
+    std::vector<double> p;  ///< by quantity
     std::vector<Effect> effects;
-    State scale;                       ///< typical sizes of the states, for the tolerance
-    std::vector<std::vector<double>> process_noise = {};   ///< by slot: one value a sample, held; empty: none
+    State scale;                                          ///< typical sizes of the states, for the tolerance
+    std::vector<std::vector<double>> process_noise = {};  ///< by slot: one value a sample, held; empty: none
 };
 
 /// By sample. Not finite: the run diverged.

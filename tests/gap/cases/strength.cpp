@@ -98,12 +98,14 @@ void tune(Machine& machine, std::size_t index, double target) {
 
 void shake(Machine& machine, Random& random) {
     std::size_t slot = machine.system->slots.size();
-    for (std::size_t s = 0; s < machine.system->slots.size(); ++s) slot = machine.system->slots[s].kind == Kind::torque || machine.system->slots[s].kind == Kind::force ? s : slot;
+    for (std::size_t s = 0; s < machine.system->slots.size(); ++s)
+        slot = machine.system->slots[s].kind == Kind::torque || machine.system->slots[s].kind == Kind::force ? s : slot;
     if (slot == machine.system->slots.size()) throw std::runtime_error("nothing to shake");
     const double pole = random.chance(0.5) ? 0 : 0.9;
     std::vector<double> noise;
     double v = 0;
-    for (std::size_t k = 0; k < machine.system->samples(); ++k) noise.push_back(v = pole * v + std::sqrt(1 - pole * pole) * random.normal());
+    for (std::size_t k = 0; k < machine.system->samples(); ++k)
+        noise.push_back(v = pole * v + std::sqrt(1 - pole * pole) * random.normal());
     const double wanted = random.uniform(1, 3);
     double size = 0.02 * machine.system->slots[slot].size;
     machine.process_noise.assign(machine.system->slots.size(), {});

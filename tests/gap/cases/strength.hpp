@@ -8,7 +8,7 @@
 
 namespace algest::gap {
 
-constexpr double sensor_share = 0.004;   ///< sensor noise over the signal's size
+constexpr double sensor_share = 0.004;  ///< sensor noise over the signal's size
 
 /// max(std, 0.1 rms): what errors are compared with.
 double size_of(const std::vector<double>& v);

@@ -29,7 +29,8 @@ std::string equations_with(const System& system, const std::string& word) {
     const auto part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
     for (const Equation& e : system.equations) {
         for (std::size_t at = e.ode.find(word); at != std::string::npos; at = e.ode.find(word, at + 1)) {
-            if ((at > 0 && part(e.ode[at - 1])) || (at + word.size() < e.ode.size() && part(e.ode[at + word.size()]))) continue;
+            if ((at > 0 && part(e.ode[at - 1])) || (at + word.size() < e.ode.size() && part(e.ode[at + word.size()])))
+                continue;
             out += (out.empty() ? "" : ",") + e.signal;
             break;
         }
@@ -37,7 +38,8 @@ std::string equations_with(const System& system, const std::string& word) {
     return out;
 }
 
-Effect named(const std::string& name, std::vector<std::string> names, std::vector<double> values, std::vector<int> slots = {}) {
+Effect named(const std::string& name, std::vector<std::string> names, std::vector<double> values,
+             std::vector<int> slots = {}) {
     Effect e;
     e.name = name;
     e.accepted = {name};
@@ -48,17 +50,25 @@ Effect named(const std::string& name, std::vector<std::string> names, std::vecto
 }
 
 std::optional<Effect> on_input(const std::string& name, const System& system, int input, Random& random) {
-    if (input >= static_cast<int>(system.inputs.size()) || (system.feedback && system.feedback->input == input)) return std::nullopt;
-    const auto i = static_cast<std::size_t>(input);
+    if (input >= static_cast<int>(system.inputs.size()) || (system.feedback && system.feedback->input == input))
+        return std::nullopt;
+    std::vector<int> inputs = {input};
+    if (quantity(system, "psi") >= 0) {  // both voltages come through one inverter
+        if (input > 0) return std::nullopt;
+        inputs = {0, 1};
+    }
     const double T = system.period;
     Effect e;
     if (name == "input_delay") {
         e = named(name, {"delay_s"}, {T * random.integer(2, 8)});
         e.formula = "u(t-n*dt)";
-        e.tuned = false;   // whole samples
+        e.tuned = false;  // whole samples
         // A plant that runs had the first command before the recording began; one at rest had none.
-        const bool running = std::any_of(system.slots.begin(), system.slots.end(), [](const Slot& s) { return s.kind == Kind::flow; });
-        e.arrives = [i, T, running](const auto& commanded, std::size_t k, const double*, const double* q) {
+        const bool running =
+            std::any_of(system.slots.begin(), system.slots.end(), [](const Slot& s) { return s.kind == Kind::flow; });
+        e.arrives = [inputs, T, running](std::size_t which, const auto& commanded, std::size_t k, const double*,
+                                         const double* q) {
+            const auto i = static_cast<std::size_t>(inputs[which]);
             // Between whole samples (only a fit goes there) a blend, which has the same slope.
             const double samples = q[0] / T, whole = std::floor(samples + 1e-9), rest = std::max(0.0, samples - whole);
             const auto n = static_cast<std::size_t>(whole);
@@ -69,21 +79,28 @@ std::optional<Effect> on_input(const std::string& name, const System& system, in
     } else if (name == "actuator_lag") {
         e = named(name, {"tau"}, {3 * T});
         e.formula = "tau*der(ua)=u-ua";
-        e.own = {0};
-        e.arrives = [](const auto&, std::size_t, const double* own, const double*) { return own[0]; };
-        e.own_rate = [i](const double*, const double* u, const double* own, const double* q, double* rate) { rate[0] = (u[i] - own[0]) / q[0]; };
-        e.own_signals = {"x_ua = { initial = 0, scored = false }"};
-        e.own_equations = {"x_tau*der(x_ua) = " + system.inputs[i] + " - x_ua"};
-        e.input_text = "x_ua";
+        e.own.assign(inputs.size(), 0.0);
+        e.arrives = [](std::size_t which, const auto&, std::size_t, const double* own, const double*) { return own[which]; };
+        e.own_rate = [inputs](const double*, const double* u, const double* own, const double* q, double* rate) {
+            for (std::size_t w = 0; w < inputs.size(); ++w) rate[w] = (u[inputs[w]] - own[w]) / q[0];
+        };
+        for (const int i : inputs) {
+            const std::string& name_of_input = system.inputs[static_cast<std::size_t>(i)];
+            e.input_texts.push_back("x_" + name_of_input);
+            e.own_signals.push_back("x_" + name_of_input + " = { initial = 0, scored = false }");
+            e.own_equations.push_back("x_tau*der(x_" + name_of_input + ") = " + name_of_input + " - x_" + name_of_input);
+        }
     } else {
         return std::nullopt;
     }
-    e.input = input;
-    e.where = equations_with(system, system.inputs[i]);
+    e.inputs = inputs;
+    for (const int i : inputs)
+        e.where += (e.where.empty() ? "" : ",") + equations_with(system, system.inputs[static_cast<std::size_t>(i)]);
     return e;
 }
 
-std::optional<Effect> on_sensor(const std::string& name, const System& system, int signal, const State& scale, Random& random) {
+std::optional<Effect> on_sensor(const std::string& name, const System& system, int signal, const State& scale,
+                                Random& random) {
     if (signal >= static_cast<int>(system.signals.size())) return std::nullopt;
     const Signal& s = system.signals[static_cast<std::size_t>(signal)];
     if (s.state < 0 || !s.scored) return std::nullopt;
@@ -127,14 +144,16 @@ Effect saliency(const System& system) {
     e.term = [=](std::size_t which, const double* x, const double* u, double, const double*, const double* q) {
         const double Ld = L * (1 - q[0]), Lq = L * (1 + q[0]), turn = pp * x[2];
         if (which == 0) return (u[0] - R * x[0] + turn * Lq * x[1]) * L / Ld - (u[0] - R * x[0] + turn * L * x[1]);
-        if (which == 1) return (u[1] - R * x[1] - turn * (Ld * x[0] + psi)) * L / Lq - (u[1] - R * x[1] - turn * (L * x[0] + psi));
+        if (which == 1)
+            return (u[1] - R * x[1] - turn * (Ld * x[0] + psi)) * L / Lq - (u[1] - R * x[1] - turn * (L * x[0] + psi));
         return 1.5 * pp * (Ld - Lq) * x[0] * x[1];
     };
     e.texts = {" + (vd - R*id + pp*w*L*(1+x_spread)*iq)/(1-x_spread) - (vd - R*id + pp*w*L*iq)",
                " + (vq - R*iq - pp*w*(L*(1-x_spread)*id + psi))/(1+x_spread) - (vq - R*iq - pp*w*(L*id + psi))",
                " - 3*pp*L*x_spread*id*iq"};
     e.stated = [L](const std::vector<double>& v) {
-        return std::vector<std::pair<std::string, double>>{{"Ld", rounded(L * (1 - v[0]), 6)}, {"Lq", rounded(L * (1 + v[0]), 6)}};
+        return std::vector<std::pair<std::string, double>>{{"Ld", rounded(L * (1 - v[0]), 6)},
+                                                           {"Lq", rounded(L * (1 + v[0]), 6)}};
     };
     return e;
 }
@@ -196,12 +215,14 @@ std::optional<Effect> flexible_coupling(const System& system, int slot, Random& 
 }  // namespace
 
 const std::vector<std::string>& structural_effects() {
-    static const std::vector<std::string> names = {"stribeck_friction", "backlash", "flexible_coupling", "saliency", "magnetic_saturation",
-                                                   "resistance_temperature", "input_delay", "actuator_lag", "sensor_gain", "sensor_bias"};
+    static const std::vector<std::string> names = {
+        "stribeck_friction",      "backlash",    "flexible_coupling", "saliency",    "magnetic_saturation",
+        "resistance_temperature", "input_delay", "actuator_lag",      "sensor_gain", "sensor_bias"};
     return names;
 }
 
-std::optional<Effect> structural_effect(const std::string& name, const System& system, int index, const State& scale, Random& random) {
+std::optional<Effect> structural_effect(const std::string& name, const System& system, int index, const State& scale,
+                                        Random& random) {
     if (name.rfind("sensor_", 0) == 0) return on_sensor(name, system, index, scale, random);
     if (name == "input_delay" || name == "actuator_lag") return on_input(name, system, index, random);
     if (index >= static_cast<int>(system.slots.size())) return std::nullopt;
@@ -210,7 +231,9 @@ std::optional<Effect> structural_effect(const std::string& name, const System& s
         if (!effect("coulomb_friction", system, index, scale, random)) return std::nullopt;
         const Role speed = s.speed;
         const double v = scale[static_cast<std::size_t>(speed.state)], width = smoothing * v;
-        Effect e = named(name, {"Tc", "ratio", "ws"}, {0.1 * s.size, rounded(random.uniform(1.6, 2.5), 2), rounded(random.uniform(0.05, 0.15) * v, 2)}, {index});
+        Effect e =
+            named(name, {"Tc", "ratio", "ws"},
+                  {0.1 * s.size, rounded(random.uniform(1.6, 2.5), 2), rounded(random.uniform(0.05, 0.15) * v, 2)}, {index});
         e.formula = "-(Tc+(Ts-Tc)*exp(-(" + speed.text + "/ws)^2))*sgn(" + speed.text + ")";
         e.term = [speed, width](std::size_t, const double* x, const double*, double, const double*, const double* q) {
             const double w = speed.of(x);
@@ -222,7 +245,8 @@ std::optional<Effect> structural_effect(const std::string& name, const System& s
         };
         return e;
     }
-    if (name == "backlash" && index == 0 && quantity(system, "J2") >= 0) return backlash(system, s.size / value(system, "k"));
+    if (name == "backlash" && index == 0 && quantity(system, "J2") >= 0)
+        return backlash(system, s.size / value(system, "k"));
     if (name == "saliency" && index == 0 && quantity(system, "psi") >= 0) return saliency(system);
     if (name == "flexible_coupling") return flexible_coupling(system, index, random);
     if (index == 0 && (name == "magnetic_saturation" || name == "resistance_temperature")) {
@@ -233,17 +257,25 @@ std::optional<Effect> structural_effect(const std::string& name, const System& s
             // L(i) = L/(1+(i/isat)^2); the strength is 1/isat^2.
             Effect e = named(name, {"isat"}, {0.1 / (i * i)}, {0});
             e.formula = "L/(1+(i/isat)^2)";
-            e.term = [coil](std::size_t, const double* x, const double* u, double, const double*, const double* q) { return coil->drop(x, u) * q[0] * x[0] * x[0]; };
+            e.term = [coil](std::size_t, const double* x, const double* u, double, const double*, const double* q) {
+                return coil->drop(x, u) * q[0] * x[0] * x[0];
+            };
             e.texts = {" + (" + coil->text + ")*x_isat*i^2"};
-            e.stated = [](const std::vector<double>& v) { return std::vector<std::pair<std::string, double>>{{"isat", rounded(1 / std::sqrt(v[0]), 4)}}; };
+            e.stated = [](const std::vector<double>& v) {
+                return std::vector<std::pair<std::string, double>>{{"isat", rounded(1 / std::sqrt(v[0]), 4)}};
+            };
             return e;
         }
         const double tau = rounded(system.duration * random.uniform(0.15, 0.5), 2);
         Effect e = named(name, {"alpha_over_Cth", "tau_th_s"}, {0.2 / (R * i * i * tau), tau}, {0});
         e.formula = "R*(1+y), der(y)=alpha_over_Cth*R*i^2-y/tau_th_s";
         e.own = {0};
-        e.term = [R](std::size_t, const double* x, const double*, double, const double* own, const double*) { return -R * x[0] * own[0]; };
-        e.own_rate = [R](const double* x, const double*, const double* own, const double* q, double* rate) { rate[0] = q[0] * R * x[0] * x[0] - own[0] / q[1]; };
+        e.term = [R](std::size_t, const double* x, const double*, double, const double* own, const double*) {
+            return -R * x[0] * own[0];
+        };
+        e.own_rate = [R](const double* x, const double*, const double* own, const double* q, double* rate) {
+            rate[0] = q[0] * R * x[0] * x[0] - own[0] / q[1];
+        };
         e.texts = {" - R*i*x_y"};
         e.own_signals = {"x_y = { initial = 0, scored = false }"};
         e.own_equations = {"der(x_y) = x_alpha_over_Cth*R*i^2 - x_y/x_tau_th_s"};

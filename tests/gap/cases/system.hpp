@@ -27,7 +27,7 @@ struct Signal {
     int state = -1;
     int input = -1;
     bool scored = true;
-    double noise = 0;   ///< given only where it is not a share of the signal's size (an encoder)
+    double noise = 0;  ///< given only where it is not a share of the signal's size (an encoder)
 };
 
 struct Equation {
@@ -42,17 +42,23 @@ struct Role {
     double of(const double* x) const { return x[state] - (minus >= 0 ? x[minus] : 0.0); }
 };
 
-enum class Kind { torque, force, voltage, flow, heat };
+enum class Kind {
+    torque,
+    force,
+    voltage,
+    flow,
+    heat
+};
 
 /// Where an effect may enter: one term on the right side of `equation` (and, with the other sign, of `opposite`).
 struct Slot {
     Kind kind;
     int equation;
-    double size;         ///< typical size of the terms of that equation: an effect much larger would be another machine
+    double size;  ///< typical size of the terms of that equation: an effect much larger would be another machine
     int opposite = -1;
     Role speed = {}, angle = {}, position = {}, current = {}, level = {};
     int input = -1;
-    double viscous = 0;              ///< a usual coefficient of viscous friction, where the model may be written without it
+    double viscous = 0;  ///< a usual coefficient of viscous friction, where the model may be written without it
     std::set<std::string> excluded = {};  ///< effects that the model's own terms would absorb
 };
 
@@ -70,13 +76,13 @@ struct System {
     double period, duration;
     std::vector<Quantity> quantities;
     std::vector<std::string> inputs;
-    State initial, typical;              ///< of the states
-    std::vector<Signal> signals;         ///< in the order of the model file
+    State initial, typical;       ///< of the states
+    std::vector<Signal> signals;  ///< in the order of the model file
     std::vector<Equation> equations;
     std::vector<Slot> slots;
     /// dx/dt; `added` holds one term for each slot, as it stands on the right side.
     std::function<void(const double* x, const double* u, const double* p, const double* added, double* rate)> rate;
-    std::function<Controller()> experiment;   ///< a fresh controller for every run
+    std::function<Controller()> experiment;  ///< a fresh controller for every run
     std::optional<Feedback> feedback;
 
     std::size_t samples() const { return static_cast<std::size_t>(duration / period + 0.5); }
@@ -84,8 +90,8 @@ struct System {
 
 /// What a case asks of a system before it is built.
 struct Wish {
-    std::string effect;       ///< viscous_friction, back_emf, gravity_sin: the model is written without that term
-    bool one_speed = false;   ///< constant input, from rest in its steady state
+    std::string effect;      ///< viscous_friction, back_emf, gravity_sin: the model is written without that term
+    bool one_speed = false;  ///< constant input, from rest in its steady state
 };
 
 std::vector<std::string> families();

@@ -27,7 +27,7 @@ std::string number(double v) {
 std::string own(std::string text, std::size_t index) {
     const std::string with = "x" + std::to_string(index + 1) + "_";
     for (std::size_t at = 0; (at = text.find("x_", at)) != std::string::npos; at += with.size()) {
-        const bool whole = at == 0 || !std::isalnum(static_cast<unsigned char>(text[at - 1]));   // not the end of max_...
+        const bool whole = at == 0 || !std::isalnum(static_cast<unsigned char>(text[at - 1]));  // not the end of max_...
         if (whole) text.replace(at, 2, with);
     }
     return text;
@@ -53,14 +53,16 @@ std::string unit_of(const std::string& unit) { return unit.empty() ? "" : fmt::f
 std::string model_text(const Case& c, bool truth) {
     const System& s = *c.system;
     const std::vector<Effect>& hidden = c.machine.effects;
-    std::string out = fmt::format("name = \"{}\"\nsummary = \"{}\"\n\n[sampling]\nperiod = \"{}\"\n\n[signals]\n", c.name, s.summary, s.period);
+    std::string out = fmt::format("name = \"{}\"\nsummary = \"{}\"\n\n[sampling]\nperiod = \"{}\"\n\n[signals]\n", c.name,
+                                  s.summary, s.period);
     for (std::size_t i = 0; i < s.signals.size(); ++i) {
         const Signal& sig = s.signals[i];
         if (sig.input >= 0) {
             out += fmt::format("{} = {{ unit = \"{}\", hold = \"zoh\" }}\n", sig.name, sig.unit);
         } else {
-            out += fmt::format("{} = {{ unit = \"{}\", noise = {}, resolution = {}, initial = {}{} }}\n", sig.name, sig.unit, c.noise[i], c.resolution[i],
-                               number(s.initial[static_cast<std::size_t>(sig.state)]), sig.scored ? "" : ", scored = false");
+            out += fmt::format("{} = {{ unit = \"{}\", noise = {}, resolution = {}, initial = {}{} }}\n", sig.name, sig.unit,
+                               c.noise[i], c.resolution[i], number(s.initial[static_cast<std::size_t>(sig.state)]),
+                               sig.scored ? "" : ", scored = false");
         }
     }
     if (truth) {
@@ -71,12 +73,15 @@ std::string model_text(const Case& c, bool truth) {
     out += "\n[constants]\n";
     for (std::size_t q = 0; q < s.quantities.size(); ++q) {
         const double value = truth ? c.machine.p[q] : c.believed[q];
-        if (s.quantities[q].known) out += fmt::format("{} = {{ value = {}{} }}\n", s.quantities[q].name, number(value), unit_of(s.quantities[q].unit));
+        if (s.quantities[q].known)
+            out +=
+                fmt::format("{} = {{ value = {}{} }}\n", s.quantities[q].name, number(value), unit_of(s.quantities[q].unit));
     }
     if (truth) {
         for (std::size_t e = 0; e < hidden.size(); ++e) {
             for (std::size_t n = 0; n < hidden[e].names.size(); ++n) {
-                out += fmt::format("{} = {{ value = {} }}\n", own("x_" + hidden[e].names[n], e), number(hidden[e].values[n]));
+                out +=
+                    fmt::format("{} = {{ value = {} }}\n", own("x_" + hidden[e].names[n], e), number(hidden[e].values[n]));
             }
         }
     }
@@ -84,19 +89,23 @@ std::string model_text(const Case& c, bool truth) {
     for (std::size_t q = 0; q < s.quantities.size(); ++q) {
         const Quantity& quantity = s.quantities[q];
         if (quantity.known) continue;
-        out += fmt::format("{} = {{ initial = {}{}, min = 0.0, max = {} }}\n", quantity.name, number(truth ? quantity.value : c.initial_guess[q]),
-                           unit_of(quantity.unit), number(rounded(20 * quantity.value, 2)));
+        out += fmt::format("{} = {{ initial = {}{}, min = 0.0, max = {} }}\n", quantity.name,
+                           number(truth ? quantity.value : c.initial_guess[q]), unit_of(quantity.unit),
+                           number(rounded(20 * quantity.value, 2)));
     }
     for (std::size_t e = 0; e < s.equations.size(); ++e) {
         std::string ode = s.equations[e].ode;
         for (std::size_t h = 0; truth && h < hidden.size(); ++h) {
-            if (!hidden[h].input_text.empty()) ode = with_word(ode, s.inputs[static_cast<std::size_t>(hidden[h].input)], own(hidden[h].input_text, h));
+            for (std::size_t w = 0; w < hidden[h].input_texts.size(); ++w) {
+                ode = with_word(ode, s.inputs[static_cast<std::size_t>(hidden[h].inputs[w])],
+                                own(hidden[h].input_texts[w], h));
+            }
         }
         if (truth) {
             for (std::size_t h = 0; h < hidden.size(); ++h) {
                 for (std::size_t w = 0; w < hidden[h].slots.size(); ++w) {
                     const Slot& slot = s.slots[static_cast<std::size_t>(hidden[h].slots[w])];
-                    const std::string text = own(hidden[h].texts[w], h);   // begins with a sign
+                    const std::string text = own(hidden[h].texts[w], h);  // begins with a sign
                     if (slot.equation == static_cast<int>(e)) ode += " " + text;
                     if (slot.opposite == static_cast<int>(e)) ode += " - (0" + text + ")";
                 }
@@ -113,9 +122,11 @@ std::string model_text(const Case& c, bool truth) {
         }
     }
     if (s.feedback) {
-        out += fmt::format("\n[[feedback]]              # closes the loop in simulation: sampled every period, held, instead of replaying the recorded "
-                           "signal\nsignal = \"{}\"\nlaw = \"{}\"\n",
-                           s.inputs[static_cast<std::size_t>(s.feedback->input)], s.feedback->law);
+        out += fmt::format(
+            "\n[[feedback]]              # closes the loop in simulation: sampled every period, held, instead of replaying "
+            "the recorded "
+            "signal\nsignal = \"{}\"\nlaw = \"{}\"\n",
+            s.inputs[static_cast<std::size_t>(s.feedback->input)], s.feedback->law);
     }
     return out;
 }
@@ -144,7 +155,10 @@ ordered_json answer(const Case& c) {
         if (c.believed[q] == c.machine.p[q]) continue;
         wrong[name] = rounded(c.believed[q] / c.machine.p[q], 5);
         if (c.ambiguous) continue;
-        effects.push_back({{"name", "parameter_error"}, {"equation", name}, {"formula", "the value declared known is wrong"}, {"params", ordered_json::object()}});
+        effects.push_back({{"name", "parameter_error"},
+                           {"equation", name},
+                           {"formula", "the value declared known is wrong"},
+                           {"params", ordered_json::object()}});
         accepted.push_back({"parameter_error"});
     }
     std::size_t o = 0;
