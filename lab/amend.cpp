@@ -83,7 +83,7 @@ std::size_t behind_last(const std::string& text, const Names& names) {
 
 Amendment amendment(const Binding& binding, const model::Model& model, double scan) {
     const Effect& effect = *binding.effect;
-    std::string term = effect.term;
+    std::vector<std::string> terms = binding.terms;
     Amendment out{effect.name, binding.equations, {}, {}, effect.summary};
     const auto unit_text = [&](std::string unit) {
         replace_all(unit, "{equation}", binding.unit);
@@ -92,17 +92,17 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
     };
     for (const EffectParameter& p : effect.parameters) {
         const std::string name = fresh(p.name, model);
-        rename(term, p.name, name);
+        for (std::string& term : terms) rename(term, p.name, name);
         out.names.push_back({name, unit_text(p.unit), 0.0, p.not_negative, false});
     }
     for (const EffectScan& s : effect.scans) {
         const std::string name = fresh(s.name, model);
-        rename(term, s.name, name);
+        for (std::string& term : terms) rename(term, s.name, name);
         out.names.push_back({name, unit_text(s.unit), scan, false, true});
     }
-    for (const auto& roles : binding.roles) {
-        out.terms.push_back(term);
-        for (const auto& [role, formula] : roles) replace_all(out.terms.back(), "{" + role + "}", formula);
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+        for (const auto& [role, formula] : binding.roles[k]) replace_all(terms[k], "{" + role + "}", formula);
+        out.terms.push_back(terms[k]);
     }
     return out;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The gap workflow: simulate, fit, locate, name, amend, confirm (design.md, section 6).
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "lab/discovery.hpp"
 #include "lab/effects.hpp"
 #include "lab/recording.hpp"
+#include "lab/selection.hpp"
 
 namespace algest::lab {
 
@@ -17,9 +17,6 @@ struct DiscoverOptions {
     std::optional<std::pair<double, double>> train_s;     ///< default: the first 70 percent
     std::optional<std::pair<double, double>> test_s;      ///< default: the rest
 };
-
-/// What is going on, in words, with a share of the work done.
-using StepReport = std::function<void(const std::string&, double)>;
 
 /// The whole workflow on one recording. Nullopt, and errors in `diagnostics`, where model and recording do not go together.
 std::optional<Discovery> discover(const std::string& model_text, const std::string& model_path, const Recording& recording,

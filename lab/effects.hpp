@@ -42,6 +42,8 @@ struct Effect {
     bool together;                               ///< it enters all equations of that unit at once, with one value
     std::map<std::string, std::string> roles;    ///< placeholder -> kind: speed, angle, position, own, current, any_speed, input, time
     std::string term;                            ///< with placeholders, as it is added beside the driving terms
+    std::string d_term;                          ///< in the d equation of a rotating frame, {d} {q} {angle} standing for currents and
+    std::string q_term;                          ///< electrical angle; empty: as any other equation
     std::vector<EffectParameter> parameters;
     std::vector<EffectScan> scans;               ///< at most one
     std::vector<Rival> rivals;
@@ -54,6 +56,7 @@ std::vector<Effect> read_effects(const std::vector<std::string>& folders, Diagno
 struct Binding {
     const Effect* effect;
     std::vector<std::size_t> equations;             ///< indices into the model's equations
+    std::vector<std::string> terms;                 ///< by equation: the effect's, placeholders still in it
     std::vector<std::map<std::string, std::string>> roles;   ///< by equation: placeholder -> formula, e.g. speed -> der(x)
     std::map<std::string, std::string> role_units;  ///< placeholder -> unit text
     std::string unit;                               ///< of the equation, as the effect spells it

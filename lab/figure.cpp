@@ -10,7 +10,9 @@ namespace algest::lab {
 
 namespace {
 
-constexpr double pixels_per_character = 7.8;   ///< of DejaVu Sans at 12 px, the widest of the fonts in use
+constexpr int font = 12;                       ///< px
+constexpr int small_font = 10;                 ///< px, of a label that is too long
+constexpr double width_of_character = 0.61;    ///< over the size of the font: of DejaVu Sans, the widest of those in use
 constexpr double pixels_per_x_number = 60;
 constexpr double pixels_per_y_number = 26;
 constexpr double label_line = 15;              ///< px, from the edge to the middle of an axis label
@@ -76,13 +78,21 @@ Numbering numbering(const Axis& axis, double pixels, double pixels_per_number) {
     return {exponent, scale, step, std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)))};
 }
 
-/// "name [unit]" in at most so many pixels.
-std::string label(const Axis& axis, const Numbering& n, double pixels) {
+struct Label {
+    std::string text;
+    int font;
+};
+
+/// "name [unit]" in at most so many pixels: in the small font, then shortened, where it is too long.
+Label label(const Axis& axis, const Numbering& n, double pixels) {
     std::string unit = axis.unit.empty() ? "unknown" : axis.unit;
     if (n.exponent != 0) unit = power_of_ten(n.exponent) + (unit == "1" ? "" : "\u00a0" + unit);
-    const auto most = static_cast<std::size_t>(std::max(pixels / pixels_per_character, 12.0));
+    const std::string whole = axis.name + " [" + unit + "]";
+    const auto room = [&](int size) { return static_cast<std::size_t>(std::max(pixels / (width_of_character * size), 12.0)); };
+    if (characters(whole).size() <= room(font)) return {whole, font};
+    const std::size_t most = room(small_font);
     unit = shortened(unit, most - 7);
-    return shortened(axis.name, most - 3 - characters(unit).size()) + " [" + unit + "]";
+    return {shortened(axis.name, most - 3 - characters(unit).size()) + " [" + unit + "]", small_font};
 }
 
 class Script {
@@ -91,7 +101,7 @@ public:
 
     std::string text() {
         line("set encoding utf8");
-        line("set terminal svg size {},{} dynamic noenhanced rounded font 'sans-serif,12' background 'white'", figure_.width, figure_.height);
+        line("set terminal svg size {},{} dynamic noenhanced rounded font 'sans-serif,{}' background 'white'", figure_.width, figure_.height, font);
         line("set multiplot");
         line("unset key");
         line("set border 3 lw 1 lc rgb '#555555'");
@@ -141,9 +151,11 @@ private:
             if (from < to) line("set object rectangle from first {:.12g}, graph 0 to first {:.12g}, graph 1 behind fc rgb '#56b4e9' fs transparent solid 0.16 noborder", from, to);
         }
         const double middle = 0.5 * (panel.top + panel.bottom);
-        line("set label {} at screen {:.5f}, screen {:.5f} rotate by 90 center", quoted(label(panel.y, y, panel.bottom - panel.top)), across(panel.left - room_left + label_line), up(middle));
+        const Label y_label = label(panel.y, y, panel.bottom - panel.top);
+        line("set label {} at screen {:.5f}, screen {:.5f} rotate by 90 center font ',{}'", quoted(y_label.text), across(panel.left - room_left + label_line), up(middle), y_label.font);
         if (panel.x.shown) {
-            line("set label {} at screen {:.5f}, screen {:.5f} center", quoted(label(panel.x, x, panel.right - panel.left)), across(0.5 * (panel.left + panel.right)), up(panel.bottom + room_below - label_line));
+            const Label x_label = label(panel.x, x, panel.right - panel.left);
+            line("set label {} at screen {:.5f}, screen {:.5f} center font ',{}'", quoted(x_label.text), across(0.5 * (panel.left + panel.right)), up(panel.bottom + room_below - label_line), x_label.font);
         }
         for (const auto& [place, text] : panel.headings) {
             const double share = (place - panel.x.from) / (panel.x.to - panel.x.from);

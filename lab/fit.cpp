@@ -24,14 +24,11 @@ struct Variables {
 
 class FreeRunError : public ceres::CostFunction {
 public:
-    FreeRunError(const model::Model& model, const Bench& bench, const FitStart& start, Variables variables, const std::function<void()>& alive)
-        : model_(model), bench_(bench), start_(start), variables_(std::move(variables)), alive_(alive), outputs_(scored_outputs(model, bench)) {
-        drive_ = bench.drive;
-        drive_.samples = start.rows.end;
-        options_ = bench.options;
-        options_.first = start.rows.begin;
+    FreeRunError(const model::Model& model, const Bench& bench, const FitStart& start, Variables variables)
+        : bench_(bench), start_(start), variables_(std::move(variables)), outputs_(scored_outputs(model, bench)) {
+        count_ = (start.rows.size() + bench.options.stride - 1) / bench.options.stride;
         for (const int s : outputs_) sizes_.push_back(size_of(bench.measured[static_cast<std::size_t>(s)]));
-        set_num_residuals(static_cast<int>(outputs_.size() * start.rows.size()));
+        set_num_residuals(static_cast<int>(outputs_.size() * count_));
         mutable_parameter_block_sizes()->push_back(static_cast<int>(variables_.size()));
     }
 
@@ -40,16 +37,15 @@ public:
         std::vector<double> parameters = start_.parameters;
         std::vector<double> initial = start_.initial;
         spread(x, parameters, initial);
-        const FreeRun run = free_run(bench_.system, parameters, initial, drive_, options_);
+        const Prediction run = predict(bench_, parameters, initial, start_.rows, start_.horizon);
         ++runs;
-        if (alive_) alive_();
-        const double scale = 1.0 / std::sqrt(static_cast<double>(start_.rows.size()));
+        const double scale = 1.0 / std::sqrt(static_cast<double>(count_));
         std::size_t k = 0;
         for (std::size_t o = 0; o < outputs_.size(); ++o) {
             const std::size_t s = static_cast<std::size_t>(outputs_[o]);
-            for (std::size_t row = 0; row < start_.rows.size(); ++row, ++k) {
-                const double miss = row < run.samples ? (bench_.measured[s][start_.rows.begin + row] - run.signals[s][row]) / sizes_[o] : error_of_divergence;
-                out[k] = scale * std::clamp(miss, -error_of_divergence, error_of_divergence);
+            for (std::size_t row = 0; row < count_; ++row, ++k) {
+                const double miss = (bench_.measured[s][start_.rows.begin + row * bench_.options.stride] - run.signals[s][row]) / sizes_[o];
+                out[k] = scale * (std::isfinite(miss) ? std::clamp(miss, -error_of_divergence, error_of_divergence) : error_of_divergence);
             }
         }
     }
@@ -62,7 +58,7 @@ public:
         std::vector<double> moved(x[0], x[0] + columns);
         std::vector<double> ahead(rows);
         for (std::size_t c = 0; c < columns; ++c) {
-            const double step = 1e-5 * std::max(std::abs(x[0][c]), 1e-2);
+            const double step = 1e-4 * std::max(std::abs(x[0][c]), 1e-2);   // far above what the run's tolerance blurs
             moved[c] = x[0][c] + step;
             residuals(moved.data(), ahead.data());
             moved[c] = x[0][c];
@@ -78,19 +74,16 @@ public:
     }
 
     const std::vector<int>& outputs() const { return outputs_; }
-    const std::vector<double>& sizes() const { return sizes_; }
+    std::size_t count() const { return count_; }
     mutable int runs = 0;
 
 private:
-    const model::Model& model_;
     const Bench& bench_;
     const FitStart& start_;
     Variables variables_;
-    const std::function<void()>& alive_;
     std::vector<int> outputs_;
     std::vector<double> sizes_;
-    Drive drive_;
-    RunOptions options_;
+    std::size_t count_;   ///< rows that are compared
 };
 
 Variables choose_variables(const model::Model& model, const Bench& bench, const FitStart& start) {
@@ -101,7 +94,7 @@ Variables choose_variables(const model::Model& model, const Bench& bench, const 
         const double range = model.parameters[p].max ? 1e-3 * exact::nearest(cln::abs(*model.parameters[p].max), plan::Scalar::float64) : 1e-3;
         out.scale.push_back(start.parameters[p] != 0 ? std::abs(start.parameters[p]) : range);
     }
-    for (std::size_t e = 0; e < bench.system.states.size(); ++e) {
+    for (std::size_t e = 0; e < bench.system.states.size() && start.horizon == 0; ++e) {
         if (bench.measured[static_cast<std::size_t>(bench.system.states[e].signal)].empty()) continue;
         out.entries.push_back(e);
         out.scale.push_back(bench.options.scale[e]);
@@ -109,8 +102,17 @@ Variables choose_variables(const model::Model& model, const Bench& bench, const 
     return out;
 }
 
-/// Sum of the autocorrelation of a residual up to its first zero, both sides: how many samples count as one.
-double samples_that_count_as_one(const double* r, std::size_t count) {
+}  // namespace
+
+std::vector<int> scored_outputs(const model::Model& model, const Bench& bench) {
+    std::vector<int> out;
+    for (const int s : bench.system.moving) {
+        if (!bench.measured[static_cast<std::size_t>(s)].empty() && model.signals[static_cast<std::size_t>(s)].scored) out.push_back(s);
+    }
+    return out;
+}
+
+double rows_that_count_as_one(const double* r, std::size_t count) {
     double power = 0;
     for (std::size_t k = 0; k < count; ++k) power += r[k] * r[k];
     if (!(power > 0)) return 1;
@@ -125,42 +127,45 @@ double samples_that_count_as_one(const double* r, std::size_t count) {
     return sum;
 }
 
-}  // namespace
-
-std::vector<int> scored_outputs(const model::Model& model, const Bench& bench) {
-    std::vector<int> out;
-    for (const int s : bench.system.moving) {
-        if (!bench.measured[static_cast<std::size_t>(s)].empty() && model.signals[static_cast<std::size_t>(s)].scored) out.push_back(s);
-    }
-    return out;
+double output_error(const model::Model& model, const Bench& bench, const FitStart& at) {
+    const FreeRunError error(model, bench, at, {});
+    std::vector<double> residuals(static_cast<std::size_t>(error.num_residuals()));
+    error.residuals(nullptr, residuals.data());
+    double squares = 0;
+    for (const double r : residuals) squares += r * r;
+    return squares / static_cast<double>(error.outputs().size());
 }
 
-Fit fit(const model::Model& model, const Bench& bench, const FitStart& start, const std::function<void()>& alive) {
+Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     const Variables variables = choose_variables(model, bench, start);
     std::vector<double> x;
     for (std::size_t k = 0; k < variables.size(); ++k) {
         const double value = k < variables.parameters.size() ? start.parameters[variables.parameters[k]] : start.initial[variables.entries[k - variables.parameters.size()]];
         x.push_back(value / variables.scale[k]);
     }
-    auto* cost = new FreeRunError(model, bench, start, variables, alive);   // the problem owns it
+    if (x.empty()) return {start.parameters, {}, start.initial, output_error(model, bench, start), true, 1};
+    auto* cost = new FreeRunError(model, bench, start, variables);   // the problem owns it
     ceres::Problem problem;
     problem.AddResidualBlock(cost, nullptr, x.data());
     for (std::size_t k = 0; k < variables.parameters.size(); ++k) {
         const model::Parameter& p = model.parameters[variables.parameters[k]];
-        if (p.min) problem.SetParameterLowerBound(x.data(), static_cast<int>(k), exact::nearest(*p.min, plan::Scalar::float64) / variables.scale[k]);
-        if (p.max) problem.SetParameterUpperBound(x.data(), static_cast<int>(k), exact::nearest(*p.max, plan::Scalar::float64) / variables.scale[k]);
+        const double low = p.min ? exact::nearest(*p.min, plan::Scalar::float64) / variables.scale[k] : -std::numeric_limits<double>::infinity();
+        const double high = p.max ? exact::nearest(*p.max, plan::Scalar::float64) / variables.scale[k] : std::numeric_limits<double>::infinity();
+        x[k] = std::clamp(x[k], low, high);   // a start that the bounds forbid stops the optimiser
+        if (p.min) problem.SetParameterLowerBound(x.data(), static_cast<int>(k), low);
+        if (p.max) problem.SetParameterUpperBound(x.data(), static_cast<int>(k), high);
     }
     ceres::Solver::Options options;
     options.max_num_iterations = start.most_iterations;
     options.linear_solver_type = ceres::DENSE_QR;
     options.logging_type = ceres::SILENT;
-    options.function_tolerance = 1e-7;
-    options.parameter_tolerance = 1e-7;
+    options.function_tolerance = start.tolerance;
+    options.parameter_tolerance = start.tolerance;
     options.num_threads = 1;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
 
-    Fit out{start.parameters, std::vector<double>(start.parameters.size(), std::numeric_limits<double>::infinity()), start.initial, 0, {}, summary.termination_type == ceres::CONVERGENCE, 0};
+    Fit out{start.parameters, std::vector<double>(start.parameters.size(), std::numeric_limits<double>::infinity()), start.initial, 0, summary.termination_type == ceres::CONVERGENCE, 0};
     cost->spread(x.data(), out.parameters, out.initial);
     const std::size_t count = static_cast<std::size_t>(cost->num_residuals());
     std::vector<double> residuals(count);
@@ -169,15 +174,14 @@ Fit fit(const model::Model& model, const Bench& bench, const FitStart& start, co
     double* columns = jacobian.data();
     cost->Evaluate(&block, residuals.data(), &columns);
     // Each output has its own noise: rows are divided by it before the normal equations.
-    const std::size_t rows = start.rows.size();
+    const std::size_t rows = cost->count();
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(variables.size()), static_cast<Eigen::Index>(variables.size()));
     for (std::size_t o = 0; o < cost->outputs().size(); ++o) {
         const double* r = residuals.data() + o * rows;
         double squares = 0;
         for (std::size_t k = 0; k < rows; ++k) squares += r[k] * r[k];
         out.cost += squares / static_cast<double>(cost->outputs().size());
-        out.noise.push_back(std::sqrt(squares) * cost->sizes()[o]);
-        const double variance = squares / static_cast<double>(rows) * samples_that_count_as_one(r, rows);
+        const double variance = squares / static_cast<double>(rows) * rows_that_count_as_one(r, rows);
         const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> part(jacobian.data() + o * rows * variables.size(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(variables.size()));
         if (variance > 0) normal += part.transpose() * part / variance;
     }

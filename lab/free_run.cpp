@@ -16,17 +16,21 @@ using State = std::vector<double>;
 using Stepper = boost::numeric::odeint::runge_kutta_dopri5<State>;
 
 constexpr double largest_excursion = 1e6;      ///< times the scale: diverged
-constexpr int most_steps_in_a_period = 20000;  ///< stiffer than that is a diverged run too
+constexpr int most_steps_in_a_span = 20000;    ///< stiffer than that is a diverged run too,
+constexpr std::size_t most_steps_a_sample = 100;   ///< and so is more than this on average
+
+constexpr double layer = 5e-3;                 ///< half the width of a layered relay, in typical sizes of its argument
 
 /// Where a relay stands.
-enum class Mode { negative, holding, positive };
+enum class Mode { negative, holding, positive, layered };
 
 class Run {
 public:
     Run(const OdeSystem& system, const std::vector<double>& parameters, const Drive& drive, const RunOptions& options)
         : system_(system), drive_(drive), options_(options), inputs_(static_cast<std::size_t>(system.inputs), 0.0),
           values_(system.residual.operations.size()), results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
-          mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())) {
+          mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())),
+          span_(drive.period * static_cast<double>(options.stride)) {
         for (std::size_t p = 0; p < parameters.size(); ++p) inputs_[static_cast<std::size_t>(system.parameter_input) + p] = parameters[p];
         for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
         scale_ = options.scale;
@@ -36,15 +40,18 @@ public:
     FreeRun over(const std::vector<double>& initial, const std::function<void(double)>& progress) {
         FreeRun out{std::vector<std::vector<double>>(drive_.values.size()), 0};
         State x = initial;
-        step_ = drive_.period;
-        for (std::size_t k = options_.first; k < drive_.samples; ++k) {
+        const std::size_t end = options_.end > 0 ? options_.end : drive_.samples;
+        step_ = span_;
+        sample_ = options_.first;
+        set_layers();
+        for (std::size_t k = options_.first; k < end; k += options_.stride) {
             sample_ = k;
             set_state(x);
             set_driven(0.0);
             apply_laws();
             record(out);
             ++out.samples;
-            if (k + 1 == drive_.samples) break;
+            if (k + options_.stride >= end) break;
             choose_modes(x);
             if (!advance(x)) break;
             if (progress && k % 1024 == 0) progress(static_cast<double>(k) / static_cast<double>(drive_.samples));
@@ -155,10 +162,32 @@ private:
         return up == down ? 0.0 : -(up + down) / (up - down);
     }
 
+    /// The typical size of a layered relay's argument: the largest that one state of its own typical size makes of it.
+    void set_layers() {
+        layer_.assign(modes_.size(), 0.0);
+        for (std::size_t r = 0; r < modes_.size(); ++r) {
+            if (!system_.relays[r].layered) continue;
+            modes_[r] = Mode::layered;
+            for (std::size_t i = 0; i < scale_.size(); ++i) {
+                State x(scale_.size(), 0.0);
+                x[i] = scale_[i];
+                layer_[r] = std::max(layer_[r], layer * std::abs(argument_at(r, x, 0.0)));
+            }
+            if (!(layer_[r] > 0)) layer_[r] = layer;
+        }
+    }
+
     /// Sets every relay for the rate at x.
     void set_relays(const State& x) {
+        bool evaluated = false;   // arguments do not depend on relays: one evaluation serves all
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            if (modes_[r] != Mode::holding) relay(r) = modes_[r] == Mode::positive ? 1.0 : -1.0;
+            if (modes_[r] == Mode::layered) {
+                if (!evaluated) evaluate();
+                evaluated = true;
+                relay(r) = std::clamp(relay_argument(r) / layer_[r], -1.0, 1.0);
+            } else if (modes_[r] != Mode::holding) {
+                relay(r) = modes_[r] == Mode::positive ? 1.0 : -1.0;
+            }
         }
         for (std::size_t r = 0; r < modes_.size(); ++r) {
             if (modes_[r] == Mode::holding) relay(r) = std::clamp(holding_value(r, x), -1.0, 1.0);
@@ -169,7 +198,7 @@ private:
         set_driven(fraction);
         set_state(x);
         set_relays(x);
-        set_state(x);
+        set_state(x);   // holding relays have tried other states
         rate_as_set(out);
     }
 
@@ -187,6 +216,7 @@ private:
     void choose_modes(const State& x) {
         argument_scale_.resize(modes_.size(), 0.0);
         for (std::size_t r = 0; r < modes_.size(); ++r) {
+            if (modes_[r] == Mode::layered) continue;
             const double g = argument_at(r, x, 0.0);
             argument_scale_[r] = std::max(argument_scale_[r], std::abs(g));
             if (std::abs(g) > argument_tolerance(r)) modes_[r] = g > 0 ? Mode::positive : Mode::negative;
@@ -212,7 +242,7 @@ private:
     /// One step of size h from (x, t in the period); the largest error over the states, relative to the tolerance.
     double attempt(const State& x, double t, double h, State& next) {
         State error(x.size());
-        const auto flow = [&](const State& s, State& out, double at) { rate(s, out, at / drive_.period); };
+        const auto flow = [&](const State& s, State& out, double at) { rate(s, out, at / span_); };
         Stepper().do_step(flow, x, t, next, h, error);
         double largest = 0;
         for (std::size_t i = 0; i < x.size(); ++i) {
@@ -226,7 +256,8 @@ private:
     /// The first relay that a step has carried to the other side; -1: none.
     int switched(const State& next, double t) {
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            const double g = argument_at(r, next, t / drive_.period);
+            if (modes_[r] == Mode::layered) continue;
+            const double g = argument_at(r, next, t / span_);
             argument_scale_[r] = std::max(argument_scale_[r], std::abs(g));
             const double beyond = modes_[r] == Mode::positive ? -g : modes_[r] == Mode::negative ? g : std::abs(g);
             if (beyond > argument_tolerance(r)) return static_cast<int>(r);
@@ -234,17 +265,17 @@ private:
         return -1;
     }
 
-    /// Through one period; false where the run diverges.
+    /// Through the span to the next kept sample; false where the run diverges.
     bool advance(State& x) {
         double t = 0;
         State next(x.size());
-        for (int steps = 0; t < drive_.period * (1 - 1e-12); ++steps) {
-            if (steps > most_steps_in_a_period) return false;
-            double h = std::min(step_, drive_.period - t);
+        for (int steps = 0; t < span_ * (1 - 1e-12); ++steps) {
+            if (steps > most_steps_in_a_span || ++steps_taken_ > most_steps_a_sample * drive_.samples) return false;
+            double h = std::min(step_, span_ - t);
             const double error = attempt(x, t, h, next);
             if (!(error <= 1.0)) {
                 step_ = h * std::max(0.1, std::isfinite(error) ? 0.9 * std::pow(error, -0.2) : 0.1);
-                if (step_ < 1e-12 * drive_.period) return false;
+                if (step_ < 1e-12 * span_) return false;
                 continue;
             }
             const int r = switched(next, t + h);
@@ -252,13 +283,13 @@ private:
                 h = locate(x, t, h, static_cast<std::size_t>(r), next);
                 x = next;
                 t += h;
-                set_driven(t / drive_.period);
+                set_driven(t / span_);
                 choose_at_zero(static_cast<std::size_t>(r), x);
                 if (!finite(x)) return false;
                 continue;
             }
             if (r >= 0) {   // a held argument has broken away
-                const double g = argument_at(static_cast<std::size_t>(r), next, (t + h) / drive_.period);
+                const double g = argument_at(static_cast<std::size_t>(r), next, (t + h) / span_);
                 modes_[static_cast<std::size_t>(r)] = g > 0 ? Mode::positive : Mode::negative;
             }
             x = next;
@@ -273,16 +304,16 @@ private:
     double locate(const State& x, double t, double h, std::size_t r, State& next) {
         double low = 0;
         double high = h;
-        double g_low = argument_at(r, x, t / drive_.period);
-        double g_high = argument_at(r, next, (t + h) / drive_.period);
+        double g_low = argument_at(r, x, t / span_);
+        double g_high = argument_at(r, next, (t + h) / span_);
         double at = h;
         int side = 0;
         for (int k = 0; k < 60; ++k) {
             at = g_high == g_low ? 0.5 * (low + high) : (low * g_high - high * g_low) / (g_high - g_low);
             if (!(at > low && at < high)) at = 0.5 * (low + high);
             attempt(x, t, at, next);
-            const double g = argument_at(r, next, (t + at) / drive_.period);
-            if (std::abs(g) <= 0.5 * argument_tolerance(r) || high - low < 1e-14 * drive_.period) break;
+            const double g = argument_at(r, next, (t + at) / span_);
+            if (std::abs(g) <= 0.5 * argument_tolerance(r) || high - low < 1e-14 * span_) break;
             if ((g > 0) == (g_high > 0)) {   // Illinois: halve the end that stays
                 high = at;
                 g_high = g;
@@ -311,7 +342,10 @@ private:
     std::vector<std::size_t> entry_input_;
     std::vector<double> scale_;
     std::vector<double> argument_scale_;
+    std::vector<double> layer_;   ///< by relay, in its argument's unit; 0: not layered
+    double span_;           ///< s, from one kept sample to the next
     std::size_t sample_ = 0;
+    std::size_t steps_taken_ = 0;
     double step_ = 0;
 };
 

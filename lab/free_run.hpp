@@ -17,7 +17,7 @@ struct Drive {
     std::vector<bool> held;                       ///< by signal: constant between samples, else linear
 };
 
-/// Every moving and every fed-back signal at every sample from the first on, by the model's signals; empty for the others.
+/// Every moving and every fed-back signal at every kept sample from the first on, by the model's signals; empty for the others.
 struct FreeRun {
     std::vector<std::vector<double>> signals;
     std::size_t samples;                          ///< computed; fewer than asked for where the run diverged
@@ -27,6 +27,8 @@ struct RunOptions {
     double tolerance = 1e-8;                      ///< local, relative to the scale of each state
     std::vector<double> scale;                    ///< by state entry: typical size; a run beyond 1e6 times it has diverged
     std::size_t first = 0;                        ///< sample at which the run starts
+    std::size_t end = 0;                          ///< sample before which it ends; 0: where the drive does
+    std::size_t stride = 1;                       ///< every how many samples the run is kept; above 1 for systems that nothing drives
 };
 
 /// Integrates from `initial` (one value per state entry) with a Dormand-Prince step of controlled size inside each period, inputs as

@@ -212,10 +212,14 @@ private:
         out_.parameter_input = out_.inputs;
         for (std::size_t p = 0; p < model_.parameters.size(); ++p) tape_inputs_.parameter.push_back(out_.inputs++);
         out_.relay_input = out_.inputs;
+        std::map<std::string, int> known;   // one switch, however often it is written
         for (const model::Equation& e : model_.equations) {
             each_node(e, [&](const Formula& f) {
                 if (f->kind != Kind::call || f->name != "sgn" || !moves_with_state(f->arguments[0])) return;
-                tape_inputs_.relay[f.get()] = out_.inputs++;
+                const auto [at, fresh] = known.emplace(formula::text(f->arguments[0]), out_.inputs);
+                tape_inputs_.relay[f.get()] = at->second;
+                if (!fresh) return;
+                ++out_.inputs;
                 relay_arguments_.push_back(f->arguments[0]);
             });
         }
@@ -235,7 +239,8 @@ private:
             tape.result(tape.difference(left, right));
         }
         for (const Formula& argument : relay_arguments_) {
-            out_.relays.push_back({static_cast<int>(out_.moving.size() + out_.relays.size())});
+            const bool lone = argument->kind == Kind::name || (argument->kind == Kind::call && argument->name == "der");
+            out_.relays.push_back({static_cast<int>(out_.moving.size() + out_.relays.size()), !lone});
             tape.result(tape.formula(argument));
         }
         out_.residual = tape.finish();

@@ -17,9 +17,11 @@ struct StateEntry {
     int order;
 };
 
-/// A sgn() whose argument moves with the state: it switches, or holds its argument at zero (Filippov).
+/// A sgn() whose argument moves with the state: it switches, or holds its argument at zero (Filippov). Where the argument is more than
+/// one signal, several relays may hold the same state at once (the phases of an inverter): those pass through a thin layer instead.
 struct Relay {
     int argument;   ///< result of the tape that is its argument
+    bool layered;
 };
 
 /// A control law that is sampled once a period and held.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "generator/render.hpp"
 #include "lab/html_text.hpp"
@@ -141,9 +142,14 @@ void set_gap(Data& page, const Discovery& d) {
 void set_runner_up(Data& page, const Discovery& d) {
     const Evidence* chosen = nullptr;
     const Evidence* next = nullptr;
-    for (const Evidence& e : d.evidence) if (e.chosen && chosen == nullptr) chosen = &e;
+    std::set<std::string> names;   // an effect that a later step chose is no rival of the first
     for (const Evidence& e : d.evidence) {
-        if (chosen == nullptr || e.chosen || e.step != chosen->step || !std::isfinite(e.validation)) continue;
+        if (!e.chosen) continue;
+        if (chosen == nullptr) chosen = &e;
+        names.insert(e.effect);
+    }
+    for (const Evidence& e : d.evidence) {
+        if (chosen == nullptr || names.count(e.effect) > 0 || e.step != chosen->step || !std::isfinite(e.validation)) continue;
         if (next == nullptr || e.validation < next->validation) next = &e;
     }
     const bool known = chosen != nullptr && next != nullptr && chosen->validation > 0;
@@ -234,7 +240,7 @@ DataList residuals_data(const Discovery& d, Figures& figures, const MakeFigure& 
         data.set("has_noise", std::isfinite(residual.noise) && residual.noise > 0);
         set(data, "noise", three_digits(residual.noise));
         data.set("has_after", residual.after.size() == residual.before.size());
-        data.set("has_law", !residual.law.empty());
+        data.set("has_law", !residual.law.empty() && residual.law.size() == residual.after.size());
         figures.set(data, *figure);
         list.push_back(data);
     }
@@ -332,6 +338,7 @@ std::string report_html(const Discovery& discovery, const model::Model& model, c
     page.set("colour_measured", std::string(colour::measured));
     page.set("colour_before", std::string(colour::before));
     page.set("colour_after", std::string(colour::after));
+    page.set("colour_without", std::string(colour::without));
     page.set("colour_law", std::string(colour::law));
     set(page, "model_name", model.name);
     set(page, "model_summary", model.summary);

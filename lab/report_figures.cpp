@@ -275,10 +275,13 @@ std::optional<Figure> law_figure(const EquationResidual& residual) {
     panel.bottom = 248;
     panel.left = room_left;
     panel.right = after ? 0.5 * width - 10 : right_edge;
+    // Beside its law belongs what the amended model leaves without it: the model as it was, refitted, hides part of it in other parameters.
+    std::vector<double> open = residual.before;
+    if (law && after) for (std::size_t k = 0; k < open.size(); ++k) open[k] = residual.after[k] + residual.law[k];
     Extent x;
     x.take(residual.x);
     Extent y;
-    y.take(residual.before);
+    y.take(open);
     if (law) y.take(residual.law);
     if (x.empty() || y.empty()) return std::nullopt;
     const Stretch across = x.widened(0.02);
@@ -289,13 +292,13 @@ std::optional<Figure> law_figure(const EquationResidual& residual) {
     const double centre = 0.5 * (across.from + across.to);
     Figure out{"residual of " + residual.equation + " against " + residual.signal, static_cast<int>(width), static_cast<int>(panel.bottom + room_below), {}};
     Panel left = panel;
-    draw_dots(left, {residual.x, residual.before}, "before", colour::before);
+    draw_dots(left, {residual.x, open}, law && after ? "without the added terms" : "before", law && after ? colour::without : colour::before);
     if (law) {
         const Curve sorted = sorted_by_x({residual.x, residual.law});
         if (is_function(sorted)) left.drawn.push_back({mean_line(sorted, 240), "law", colour::law, 2, false});
         else draw_dots(left, sorted, "law", colour::law);
     }
-    left.headings = {{centre, law ? "before, and the law that was found" : "before"}};
+    left.headings = {{centre, law && after ? "without the added terms, and their law" : "before"}};
     out.panels.push_back(left);
     if (after) {
         Panel right = panel;

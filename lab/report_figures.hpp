@@ -16,6 +16,7 @@ namespace colour {
 constexpr char measured[] = "#9a9a9a";
 constexpr char before[] = "#d55e00";
 constexpr char after[] = "#0072b2";
+constexpr char without[] = "#cc79a7";    ///< the amended model with the added terms left out
 constexpr char law[] = "#111111";
 }  // namespace colour
 
@@ -34,7 +35,8 @@ std::optional<TestFigure> test_figure(const Discovery& discovery, const model::M
 /// The residual of an equation over time, with the noise band and the stretches. Nullopt without windows.
 std::optional<Figure> time_figure(const Discovery& discovery, const EquationResidual& residual);
 
-/// The residual against the signal that explains it, with the law, and beside it what is left. Nullopt where none explains it.
+/// Against the signal that explains it: what the equation of the amended model leaves without the added terms, with what these say, and
+/// beside it what is left with them; the residual before, where no term was added to this equation. Nullopt where no signal explains it.
 std::optional<Figure> law_figure(const EquationResidual& residual);
 
 }  // namespace algest::lab

@@ -9,34 +9,11 @@
 #include "generator/annihilator.hpp"
 #include "generator/kernel.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/polynomial_value.hpp"
 
 namespace algest::lab {
 
 namespace {
-
-double value_of(const Polynomial& p, const std::vector<double>& parameters) {
-    double out = 0;
-    for (const auto& [exponents, coefficient] : p) {
-        double term = exact::nearest(coefficient, plan::Scalar::float64);
-        for (std::size_t k = 0; k < exponents.size(); ++k) for (int e = 0; e < exponents[k]; ++e) term *= parameters[k];
-        out += term;
-    }
-    return out;
-}
-
-double slope_of(const Polynomial& p, const std::vector<double>& parameters, std::size_t k) {
-    double out = 0;
-    for (const auto& [exponents, coefficient] : p) {
-        if (exponents[k] == 0) continue;
-        double term = exact::nearest(coefficient, plan::Scalar::float64) * exponents[k];
-        for (std::size_t q = 0; q < exponents.size(); ++q) {
-            const int times = exponents[q] - (q == k ? 1 : 0);
-            for (int e = 0; e < times; ++e) term *= parameters[q];
-        }
-        out += term;
-    }
-    return out;
-}
 
 /// Every product of the form, sample by sample; delayed forms are one sample late and start at the second row.
 std::vector<std::vector<double>> products(const model::Model& model, const Bench& bench, const equation::OperatorForm& form, Rows rows) {
@@ -73,36 +50,79 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
     return out;
 }
 
+/// Weights by term over one window, T^-order included, in the samples' own time.
+std::vector<std::vector<double>> projections(const model::Model& model, const Bench& bench, const equation::OperatorForm& form, int intervals) {
+    std::vector<std::vector<double>> out;
+    for (const equation::Term& term : form.terms) {
+        const int order = form.order(term.product);
+        bool held = !term.product.empty();
+        for (const equation::Factor& f : term.product) {
+            for (const int s : form.atoms[static_cast<std::size_t>(f.atom)].arguments) held = held && model.signals[static_cast<std::size_t>(s)].hold == plan::Hold::zoh;
+        }
+        out.push_back(kernel::weights(annihilator::kernel(order, 1, {form.n, 0}), intervals, held ? plan::Hold::zoh : plan::Hold::linear, plan::Quadrature::exact, plan::Scalar::float64));
+        const double factor = std::pow(intervals * bench.drive.period, -order);
+        for (double& w : out.back()) w *= factor;
+    }
+    return out;
+}
+
+/// d(residual)/d(parameter) of every window.
+Eigen::VectorXd weak_slope(const WeakForm& form, const std::vector<double>& parameters, std::size_t p) {
+    Eigen::VectorXd c(static_cast<Eigen::Index>(form.coefficients.size()));
+    for (std::size_t k = 0; k < form.coefficients.size(); ++k) c[static_cast<Eigen::Index>(k)] = slope_of(form.coefficients[k], parameters, p);
+    return form.columns * c;
+}
+
+/// One Gauss-Newton step of the parameters `free`, by scaled columns.
+void move_to_least_squares(Eigen::MatrixXd slopes, const Eigen::VectorXd& residual, const std::vector<std::size_t>& free, std::vector<double>& parameters) {
+    const Eigen::VectorXd size = slopes.colwise().norm();
+    for (Eigen::Index f = 0; f < size.size(); ++f) if (size[f] > 0) slopes.col(f) /= size[f];
+    const Eigen::VectorXd move = slopes.colPivHouseholderQr().solve(-residual);
+    for (std::size_t f = 0; f < free.size(); ++f) {
+        const Eigen::Index i = static_cast<Eigen::Index>(f);
+        if (size[i] > 0) parameters[free[f]] += move[i] / size[i];
+    }
+}
+
+struct Windows {
+    std::size_t length;   ///< samples of one
+    std::size_t stride;
+    std::size_t count;
+};
+
+Windows windows_of(std::size_t samples, int intervals) {
+    const std::size_t length = static_cast<std::size_t>(intervals) + 1;
+    const std::size_t stride = static_cast<std::size_t>(std::max(intervals / 2, 1));
+    return {length, stride, (samples - length) / stride + 1};
+}
+
+/// The form of an equation that every signal of it is measured for, on rows enough for two windows.
+std::optional<equation::OperatorForm> measured_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
+    Diagnostics quiet;
+    auto form = equation::operator_form(model, model.equations[equation], quiet);
+    if (!form || form->terms.empty() || rows.size() < 2 * static_cast<std::size_t>(intervals) + 4) return std::nullopt;
+    for (const equation::Atom& atom : form->atoms) for (const int s : atom.arguments) if (bench.measured[static_cast<std::size_t>(s)].empty()) return std::nullopt;
+    return form;
+}
+
 }  // namespace
 
 std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
-    Diagnostics quiet;
-    const auto form = equation::operator_form(model, model.equations[equation], quiet);
-    if (!form || form->terms.empty() || rows.size() < 2 * static_cast<std::size_t>(intervals) + 4) return std::nullopt;
-    for (const equation::Atom& atom : form->atoms) for (const int s : atom.arguments) if (bench.measured[static_cast<std::size_t>(s)].empty()) return std::nullopt;
-
+    const auto form = measured_form(model, bench, equation, rows, intervals);
+    if (!form) return std::nullopt;
     WeakForm out;
     out.driven = false;
     out.used.assign(model.parameters.size(), false);
     out.leading.assign(model.parameters.size(), false);
     const auto series = products(model, bench, *form, rows);
-    const std::size_t length = static_cast<std::size_t>(intervals) + 1;
-    const std::size_t stride = static_cast<std::size_t>(std::max(intervals / 2, 1));
-    const std::size_t windows = (series[0].size() - length) / stride + 1;
-    out.columns.resize(static_cast<Eigen::Index>(windows), static_cast<Eigen::Index>(form->terms.size()));
-    for (std::size_t w = 0; w < windows; ++w) out.centre.push_back(rows.begin + w * stride + length / 2);
+    const auto weights = projections(model, bench, *form, intervals);
+    const Windows windows = windows_of(series[0].size(), intervals);
+    out.columns.resize(static_cast<Eigen::Index>(windows.count), static_cast<Eigen::Index>(form->terms.size()));
+    for (std::size_t w = 0; w < windows.count; ++w) out.centre.push_back(rows.begin + w * windows.stride + windows.length / 2);
     for (std::size_t k = 0; k < form->terms.size(); ++k) {
         const equation::Term& term = form->terms[k];
-        const int order = form->order(term.product);
-        bool held = true;
-        for (const equation::Factor& f : term.product) {
-            const equation::Atom& atom = form->atoms[static_cast<std::size_t>(f.atom)];
-            for (const int s : atom.arguments) held = held && model.signals[static_cast<std::size_t>(s)].hold == plan::Hold::zoh;
-        }
-        const auto weights = kernel::weights(annihilator::kernel(order, 1, {form->n, 0}), intervals, held && !term.product.empty() ? plan::Hold::zoh : plan::Hold::linear, plan::Quadrature::exact, plan::Scalar::float64);
-        const double factor = std::pow(intervals * bench.drive.period, -order);
-        for (std::size_t w = 0; w < windows; ++w) {
-            out.columns(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(k)) = factor * dot(weights.data(), series[k].data() + w * stride, static_cast<int>(length));
+        for (std::size_t w = 0; w < windows.count; ++w) {
+            out.columns(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(k)) = dot(weights[k].data(), series[k].data() + w * windows.stride, static_cast<int>(windows.length));
         }
         out.coefficients.push_back(term.coefficient);
         for (std::size_t p = 0; p < model.parameters.size(); ++p) {
@@ -110,6 +130,70 @@ std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench,
             if (static_cast<int>(k) == form->leading) out.leading[p] = uses(term.coefficient, p);
         }
         out.driven = out.driven || is_constant(term.coefficient);
+    }
+    return out;
+}
+
+double weak_noise(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals, const std::vector<double>& parameters, const std::vector<double>& noise) {
+    const auto form = measured_form(model, bench, equation, rows, intervals);
+    if (!form) return 0;
+    const auto series = products(model, bench, *form, rows);
+    const auto weights = projections(model, bench, *form, intervals);
+    const Windows windows = windows_of(series[0].size(), intervals);
+    double variance = 0;
+    Bench moved = bench;
+    for (std::size_t s = 0; s < noise.size(); ++s) {
+        if (!(noise[s] > 0) || bench.measured[s].empty()) continue;
+        for (double& x : moved.measured[s]) x += noise[s];
+        const auto beside = products(model, moved, *form, rows);
+        moved.measured[s] = bench.measured[s];
+        for (std::size_t w = 0; w < windows.count; ++w) {
+            for (std::size_t j = 0; j < windows.length; ++j) {
+                const std::size_t row = w * windows.stride + j;
+                double change = 0;
+                for (std::size_t k = 0; k < form->terms.size(); ++k) change += value_of(form->terms[k].coefficient, parameters) * weights[k][j] * (beside[k][row] - series[k][row]);
+                variance += change * change;
+            }
+        }
+    }
+    return std::sqrt(variance / static_cast<double>(windows.count));
+}
+
+std::vector<double> weak_parameters(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start) {
+    std::vector<double> out = start;
+    std::vector<WeakForm> forms;
+    std::vector<double> scale;
+    std::vector<bool> open(start.size(), false);
+    for (std::size_t e = 0; e < model.equations.size(); ++e) {
+        auto form = weak_form(model, bench, e, rows, intervals);
+        if (!form) continue;
+        const WeakFit own = weak_fit(*form, start);
+        if (own.unknowns == 0 || !(own.residual > 0)) continue;
+        for (std::size_t p = 0; p < open.size(); ++p) open[p] = open[p] || (form->used[p] && (form->driven || !form->leading[p]));
+        scale.push_back(std::sqrt(static_cast<double>(own.windows) / own.residual));   // each equation in units of its own noise
+        forms.push_back(std::move(*form));
+    }
+    std::vector<std::size_t> free;
+    for (std::size_t p = 0; p < open.size(); ++p) if (open[p]) free.push_back(p);
+    if (free.empty()) return out;
+    Eigen::Index windows = 0;
+    for (const WeakForm& form : forms) windows += form.columns.rows();
+    for (int step = 0; step < 3; ++step) {
+        Eigen::MatrixXd slopes(windows, static_cast<Eigen::Index>(free.size()));
+        Eigen::VectorXd residual(windows);
+        Eigen::Index at = 0;
+        for (std::size_t f = 0; f < forms.size(); ++f) {
+            const Eigen::Index own = forms[f].columns.rows();
+            residual.segment(at, own) = scale[f] * weak_residual(forms[f], out);
+            for (std::size_t k = 0; k < free.size(); ++k) slopes.block(at, static_cast<Eigen::Index>(k), own, 1) = scale[f] * weak_slope(forms[f], out, free[k]);
+            at += own;
+        }
+        move_to_least_squares(slopes, residual, free, out);
+    }
+    for (std::size_t p = 0; p < out.size(); ++p) {
+        if (!std::isfinite(out[p])) return start;
+        if (model.parameters[p].min) out[p] = std::max(out[p], exact::nearest(*model.parameters[p].min, plan::Scalar::float64));
+        if (model.parameters[p].max) out[p] = std::min(out[p], exact::nearest(*model.parameters[p].max, plan::Scalar::float64));
     }
     return out;
 }
@@ -127,18 +211,8 @@ WeakFit weak_fit(const WeakForm& form, const std::vector<double>& start) {
     for (int step = 0; step < 2 && !free.empty(); ++step) {
         const Eigen::VectorXd r = weak_residual(form, out.parameters);
         Eigen::MatrixXd slopes(form.columns.rows(), static_cast<Eigen::Index>(free.size()));
-        for (std::size_t f = 0; f < free.size(); ++f) {
-            Eigen::VectorXd c(static_cast<Eigen::Index>(form.coefficients.size()));
-            for (std::size_t k = 0; k < form.coefficients.size(); ++k) c[static_cast<Eigen::Index>(k)] = slope_of(form.coefficients[k], out.parameters, free[f]);
-            slopes.col(static_cast<Eigen::Index>(f)) = form.columns * c;
-        }
-        Eigen::VectorXd size = slopes.colwise().norm();
-        for (Eigen::Index f = 0; f < size.size(); ++f) if (size[f] > 0) slopes.col(f) /= size[f];
-        const Eigen::VectorXd move = slopes.colPivHouseholderQr().solve(-r);
-        for (std::size_t f = 0; f < free.size(); ++f) {
-            const Eigen::Index i = static_cast<Eigen::Index>(f);
-            if (size[i] > 0) out.parameters[free[f]] += move[i] / size[i];
-        }
+        for (std::size_t f = 0; f < free.size(); ++f) slopes.col(static_cast<Eigen::Index>(f)) = weak_slope(form, out.parameters, free[f]);
+        move_to_least_squares(slopes, r, free, out.parameters);
     }
     out.residual = weak_residual(form, out.parameters).squaredNorm();
     return out;

@@ -33,6 +33,14 @@ struct WeakFit {
 };
 WeakFit weak_fit(const WeakForm& form, const std::vector<double>& start);
 
+/// The same over all equations at once, each in units of its own residual: what free runs start from. Within the model's bounds;
+/// parameters that no measured equation sees stay at `start`.
+std::vector<double> weak_parameters(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start);
+
+/// Standard deviation of a window's residual that white sensor noise makes, rms over the windows; 0 where the equation is not measured.
+/// noise: by signal, in its unit. A switch in a regressor counts as if it did not move.
+double weak_noise(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals, const std::vector<double>& parameters, const std::vector<double>& noise);
+
 /// Residual of every window.
 Eigen::VectorXd weak_residual(const WeakForm& form, const std::vector<double>& parameters);
 

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/locate.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+constexpr double far_from_the_floor = 1.5;    ///< gap over floor from which on what is left must be noise that nothing foretells
+constexpr double most_of_it = 0.6;            ///< validation error against the nominal model's, for a name far from the floor
+constexpr double nearly_all_of_it = 0.35;     ///< the same, where what is left has a shape
+constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
+constexpr std::size_t clipped_run = 5;        ///< samples in a row at an extreme that no noise would make alike
+
+/// Share of samples that stand in runs at the largest or smallest value.
+double clipped(const std::vector<double>& x) {
+    const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    std::size_t count = 0;
+    for (const double extreme : {*low, *high}) {
+        std::size_t run = 0;
+        for (std::size_t k = 0; k <= x.size(); ++k) {
+            if (k < x.size() && x[k] == extreme) {
+                ++run;
+                continue;
+            }
+            if (run >= clipped_run) count += run;
+            run = 0;
+        }
+    }
+    return static_cast<double>(count) / static_cast<double>(x.size());
+}
+
+bool declares_noise(const model::Signal& s) { return s.noise || s.resolution; }
+
+}  // namespace
+
+Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection, const std::vector<double>& floor) {
+    const Variant& best = selection.best;
+    if (gap_over_floor(nominal.score, floor) <= at_the_floor) return Verdict::none;
+    const auto nothing = [&] { return structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
+    if (best.amendments.empty()) return nothing();
+    const double left = best.score.nrmse / nominal.score.nrmse;
+    if (gap_over_floor(best.score, floor) > far_from_the_floor) {
+        if (structured(bench, best) && left > nearly_all_of_it) return Verdict::unknown;
+        if (left > most_of_it) return nothing();
+    }
+    return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
+}
+
+std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict, const std::vector<double>& floor) {
+    std::vector<std::string> out;
+    const Variant& best = selection.best;
+    const auto outputs = scored_outputs(nominal.model, nominal.bench);
+    for (std::size_t o = 0; o < outputs.size(); ++o) {
+        const std::size_t s = static_cast<std::size_t>(outputs[o]);
+        const model::Signal& signal = nominal.model.signals[s];
+        if (!declares_noise(signal)) out.push_back(fmt::format("'{}' declares no noise: {:.3g} {} is taken from its roughness, and what is called a gap hangs on it", signal.name, floor[o], signal.unit));
+        const double over = floor[o] > 0 ? best.score.error[o] / floor[o] : 0;
+        if (verdict == Verdict::named && over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
+    }
+    for (std::size_t s = 0; s < nominal.bench.measured.size(); ++s) {
+        const std::vector<double>& x = nominal.bench.measured[s];
+        if (x.empty() || std::find(outputs.begin(), outputs.end(), static_cast<int>(s)) == outputs.end()) continue;
+        const double share = clipped(x);
+        if (share > clipped_share) out.push_back(fmt::format("'{}' stands at its largest or smallest value for {:.1f} percent of the recording: its sensor may be clipped", nominal.model.signals[s].name, 100 * share));
+    }
+    if (bench.horizon() > 0) {
+        out.push_back(fmt::format("a disturbance of this machine does not fade, so a long free run says little: effects were decided on runs of {:.3g} s, each started from the measurement",
+                                  static_cast<double>(bench.horizon()) * nominal.bench.drive.period));
+    }
+    if (verdict != Verdict::named && verdict != Verdict::ambiguous) return out;
+    for (const Amendment& a : best.amendments) {
+        for (const NewName& n : a.names) {
+            const int p = best.model.parameter_index(n.name);
+            if (p < 0) {
+                out.push_back(fmt::format("{} = {:.6g} was scanned, not fitted: it is a constant of the amended model", n.name, n.value));
+                continue;
+            }
+            const double value = best.fit.parameters[static_cast<std::size_t>(p)];
+            const double sd = best.fit.sd[static_cast<std::size_t>(p)];
+            if (!(sd < 0.3 * std::abs(value))) out.push_back(fmt::format("{} = {:.3g} {} is known to {:.2g} {} only", n.name, value, n.unit, sd, n.unit));
+        }
+    }
+    return out;
+}
+
+bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics) {
+    bool out = true;
+    bool moves = false;
+    const std::vector<double> noise = noise_by_signal(nominal);
+    for (const int s : scored_outputs(nominal.model, nominal.bench)) {
+        const std::vector<double>& x = nominal.bench.measured[static_cast<std::size_t>(s)];
+        const model::Signal& signal = nominal.model.signals[static_cast<std::size_t>(s)];
+        const auto [low, high] = std::minmax_element(x.begin(), x.end());
+        if (*low == *high) {
+            diagnostics.error(bench.recording().file, {}, "column '" + signal.column + "' is " + fmt::format("{:.6g}", *low) + " from end to end", "record the signal '" + signal.name + "', or give it scored = false");
+            out = false;
+        }
+        double squares = 0;
+        for (const double value : x) squares += value * value;
+        moves = moves || std::sqrt(squares / static_cast<double>(x.size())) > 2 * noise[static_cast<std::size_t>(s)];
+    }
+    if (out && !moves) {
+        diagnostics.error(bench.recording().file, {}, "no output rises above its noise: the machine was not excited", "record it while its inputs move");
+        return false;
+    }
+    return out;
+}
+
+}  // namespace algest::lab

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What may be said of a selection: the verdict, and what a reader should doubt.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lab/discovery.hpp"
+#include "lab/selection.hpp"
+#include "lab/variant.hpp"
+
+namespace algest::lab {
+
+constexpr double at_the_floor = 1.15;   ///< gap over floor that counts as none
+
+/// floor: by scored output, in its unit.
+Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection, const std::vector<double>& floor);
+
+/// A sentence for each thing that a reader should not take for granted.
+std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict, const std::vector<double>& floor);
+
+/// Errors in `diagnostics` where a recording cannot show a gap: an output that never moves, or that stays within its noise.
+bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics);
+
+}  // namespace algest::lab

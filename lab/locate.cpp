@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/dimension.hpp"
+#include "lab/weak_form.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+constexpr int intervals_of_a_residual = 32;
+constexpr double share_of_structure = 0.15;   ///< of a residual that the state foretells: noise does not reach it
+constexpr double least_explained = 0.1;       ///< of a residual by one signal, to be called its region
+
+/// How a residual may hang on one signal.
+enum class Shape { linear, sign, square };
+
+double shaped(double x, Shape shape) {
+    switch (shape) {
+        case Shape::linear: return x;
+        case Shape::sign: return x > 0 ? 1.0 : -1.0;
+        case Shape::square: return x * std::abs(x);
+    }
+    return x;
+}
+
+/// What explains a residual best on its own.
+struct Region {
+    int signal = -1;
+    Shape shape = Shape::linear;
+    double share = least_explained;   ///< of the residual's variance
+};
+
+Region region_of(const Variant& v, const std::vector<std::size_t>& rows, const Eigen::VectorXd& r) {
+    Region best;
+    const double power = (r.array() - r.mean()).matrix().squaredNorm();
+    for (std::size_t s = 0; s < v.bench.measured.size() && power > 0; ++s) {
+        const std::vector<double>& m = v.bench.measured[s];
+        if (m.empty()) continue;
+        for (const Shape shape : {Shape::linear, Shape::sign, Shape::square}) {
+            Eigen::MatrixXd X(r.size(), 2);
+            X.col(0).setOnes();
+            for (Eigen::Index w = 0; w < r.size(); ++w) X(w, 1) = shaped(m[rows[static_cast<std::size_t>(w)]], shape);
+            const double missed = (r - X * X.colPivHouseholderQr().solve(r)).squaredNorm();
+            if (1 - missed / power > best.share) best = {static_cast<int>(s), shape, 1 - missed / power};
+        }
+    }
+    return best;
+}
+
+std::string in_words(const Region& region, const model::Model& model) {
+    if (region.signal < 0) return "no single signal explains it";
+    const std::string& name = model.signals[static_cast<std::size_t>(region.signal)].name;
+    switch (region.shape) {
+        case Shape::linear: return "grows with " + name;
+        case Shape::sign: return "follows the sign of " + name;
+        case Shape::square: return "grows with the square of " + name;
+    }
+    return "";
+}
+
+std::vector<double> as_vector(const Eigen::VectorXd& r) { return {r.data(), r.data() + r.size()}; }
+
+/// Parameters of one equation that fit it best on the training rows.
+std::vector<double> own_parameters(const Workbench& bench, const Variant& v, std::size_t e) {
+    const auto form = weak_form(v.model, v.bench, e, bench.parts().train, intervals_of_a_residual);
+    return form ? weak_fit(*form, v.fit.parameters).parameters : v.fit.parameters;
+}
+
+}  // namespace
+
+std::vector<double> noise_by_signal(const Variant& v) {
+    std::vector<double> out;
+    for (std::size_t s = 0; s < v.model.signals.size(); ++s) {
+        const model::Signal& signal = v.model.signals[s];
+        if (v.bench.measured[s].empty()) {
+            out.push_back(0);
+            continue;
+        }
+        const double noise = signal.noise ? exact::nearest(*signal.noise, plan::Scalar::float64) : 0.0;
+        const double step = signal.resolution ? exact::nearest(*signal.resolution, plan::Scalar::float64) : 0.0;
+        const bool replayed = std::find(v.bench.system.driven.begin(), v.bench.system.driven.end(), static_cast<int>(s)) != v.bench.system.driven.end();
+        const bool declared = signal.noise || signal.resolution;
+        out.push_back(declared ? std::sqrt(noise * noise + step * step / 12.0) : replayed ? 0.0 : roughness(v.bench.measured[s]));
+    }
+    return out;
+}
+
+std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& nominal, const Variant* amended) {
+    const Rows all = {0, bench.recording().samples()};
+    std::vector<EquationResidual> out;
+    for (std::size_t e = 0; e < nominal.model.equations.size(); ++e) {
+        const std::vector<double> parameters = own_parameters(bench, nominal, e);
+        const auto form = weak_form(nominal.model, nominal.bench, e, all, intervals_of_a_residual);
+        if (!form) continue;
+        EquationResidual r{nominal.model.equations[e].name, model::unit_of_equation(nominal.model, nominal.model.equations[e]).text(), {}, {}, {}, 0, {}, {}, {}, {}};
+        for (const std::size_t row : form->centre) r.t.push_back(bench.recording().t[row]);
+        const Eigen::VectorXd before = weak_residual(*form, parameters);
+        r.before = as_vector(before);
+        r.noise = weak_noise(nominal.model, nominal.bench, e, bench.parts().train, intervals_of_a_residual, parameters, noise_by_signal(nominal));
+        const Region region = region_of(nominal, form->centre, before);
+        if (region.signal >= 0) {
+            const std::size_t s = static_cast<std::size_t>(region.signal);
+            r.signal = nominal.model.signals[s].name;
+            r.signal_unit = nominal.model.signals[s].unit;
+            for (const std::size_t row : form->centre) r.x.push_back(nominal.bench.measured[s][row]);
+        }
+        const auto with = amended != nullptr ? weak_form(amended->model, amended->bench, e, all, intervals_of_a_residual) : std::nullopt;
+        if (with) {
+            const std::vector<double> own = own_parameters(bench, *amended, e);
+            r.after = as_vector(weak_residual(*with, own));
+            // What the added terms say: the residual without them, less the residual with them.
+            std::vector<double> without = own;
+            bool enters = false;
+            for (const Amendment& a : amended->amendments) {
+                for (const std::size_t k : a.equations) enters = enters || nominal.whole.equations[k].name == r.equation;
+                for (const NewName& n : a.names) if (!n.constant) without[static_cast<std::size_t>(amended->model.parameter_index(n.name))] = 0;
+            }
+            if (enters && !r.x.empty()) r.law = as_vector(weak_residual(*with, without) - weak_residual(*with, own));
+        }
+        out.push_back(std::move(r));
+    }
+    return out;
+}
+
+std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const std::vector<EquationResidual>& residuals) {
+    std::vector<Where> out;
+    double total = 0;
+    const double from = bench.recording().t[bench.parts().train.begin];
+    const double to = bench.recording().t[bench.parts().train.end - 1];
+    for (const EquationResidual& r : residuals) {
+        std::vector<std::size_t> inside;
+        for (std::size_t w = 0; w < r.t.size(); ++w) if (r.t[w] >= from && r.t[w] <= to) inside.push_back(w);
+        double squares = 0;
+        for (const std::size_t w : inside) squares += r.before[w] * r.before[w];
+        const double power = squares / static_cast<double>(std::max<std::size_t>(inside.size(), 1));
+        Where where{r.equation, r.noise > 0 ? std::max(power / (r.noise * r.noise) - 1, 0.0) : 0.0, from, to, ""};
+        // The stretch from the first to the last window between which nine tenths of the power lie.
+        double sum = 0;
+        for (const std::size_t w : inside) {
+            if (sum < 0.05 * squares) where.from_s = r.t[w];
+            if (sum < 0.95 * squares) where.to_s = r.t[w];
+            sum += r.before[w] * r.before[w];
+        }
+        Eigen::VectorXd values(static_cast<Eigen::Index>(inside.size()));
+        std::vector<std::size_t> rows;
+        for (std::size_t k = 0; k < inside.size(); ++k) {
+            values[static_cast<Eigen::Index>(k)] = r.before[inside[k]];
+            rows.push_back(static_cast<std::size_t>(std::lround((r.t[inside[k]] - bench.recording().t[0]) / bench.recording().period)));
+        }
+        where.region = in_words(region_of(nominal, rows, values), nominal.model);
+        total += where.share;
+        out.push_back(where);
+    }
+    for (Where& w : out) w.share = total > 0 ? w.share / total : 0;
+    return out;
+}
+
+namespace {
+
+/// Share of a residual's power that features of the state explain on windows they were not fitted to.
+double foretold(const Variant& v, const WeakForm& form, const Eigen::VectorXd& r) {
+    std::vector<std::vector<double>> features;
+    for (const std::vector<double>& m : v.bench.measured) {
+        if (m.empty()) continue;
+        const double size = std::max(size_of(m), 1e-300);
+        std::vector<double> linear, cubic, sign, square;
+        for (const std::size_t row : form.centre) {
+            const double x = m[row] / size;
+            linear.push_back(x);
+            square.push_back(x * x);
+            cubic.push_back(x * x * x);
+            sign.push_back(x > 0 ? 1.0 : -1.0);
+        }
+        for (auto* f : {&linear, &square, &cubic, &sign}) features.push_back(*f);
+        for (const std::size_t lag : {1, 2, 4}) {   // what remembers, such as hysteresis, shows against the past
+            std::vector<double> past(linear.size(), 0.0), past_sign(linear.size(), 0.0);
+            for (std::size_t w = lag; w < linear.size(); ++w) {
+                past[w] = linear[w - lag];
+                past_sign[w] = sign[w - lag];
+            }
+            features.push_back(past);
+            features.push_back(past_sign);
+        }
+    }
+    const Eigen::Index windows = r.size();
+    Eigen::MatrixXd X(windows, static_cast<Eigen::Index>(features.size()) + 1);
+    X.col(0).setOnes();
+    for (std::size_t f = 0; f < features.size(); ++f) for (Eigen::Index w = 0; w < windows; ++w) X(w, static_cast<Eigen::Index>(f) + 1) = features[f][static_cast<std::size_t>(w)];
+    const Eigen::Index half = windows / 2;
+    if (half < 2 * X.cols()) return 0;
+    const Eigen::VectorXd first = X.topRows(half).colPivHouseholderQr().solve(r.head(half));
+    const Eigen::VectorXd second = X.bottomRows(windows - half).colPivHouseholderQr().solve(r.tail(windows - half));
+    const double missed = (r.tail(windows - half) - X.bottomRows(windows - half) * first).squaredNorm() + (r.head(half) - X.topRows(half) * second).squaredNorm();
+    return 1 - missed / r.squaredNorm();
+}
+
+}  // namespace
+
+bool structured(const Workbench& bench, const Variant& v) {
+    for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
+        const auto form = weak_form(v.model, v.bench, e, bench.parts().train, intervals_of_a_residual);
+        if (!form) continue;
+        const WeakFit f = weak_fit(*form, v.fit.parameters);
+        if (foretold(v, *form, weak_residual(*form, f.parameters)) > share_of_structure) return true;
+    }
+    return false;
+}
+
+}  // namespace algest::lab

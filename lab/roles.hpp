@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an equation of a model moves, and which formulas may stand for the roles of an effect in it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "generator/model.hpp"
+#include "generator/units.hpp"
+
+namespace algest::lab {
+
+/// The signal that an equation moves: that of its first highest derivative, with the order; -1: none.
+struct Moved {
+    int signal = -1;
+    int order = 0;
+};
+Moved moved(const model::Model& model, const model::Equation& equation);
+
+/// The signal x with an equation der(x) = speed; -1: there is none.
+int integral_of(const model::Model& model, int speed);
+
+/// True when a unit is known and has the dimension of `wanted`.
+bool fits(const units::Unit& unit, const std::string& wanted);
+
+/// A formula with its unit.
+struct Filler {
+    std::string formula;
+    std::string unit;
+};
+
+/// Everything that may stand for a role of this kind in an equation (docs/discover.md lists the kinds). measured: by signal.
+std::vector<Filler> fillers(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured);
+
+}  // namespace algest::lab

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "lab/screen.hpp"
+#include "lab/weak_form.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+constexpr int most_effects = 3;
+constexpr std::size_t finalists = 5;            ///< candidates that are fitted in free run, beside each base
+constexpr std::size_t bindings_of_one = 2;      ///< of one effect among them
+constexpr double least_strength = 4;            ///< F statistic below which a candidate is not worth a fit, beyond the first
+constexpr double a_base_within = 2.0;           ///< validation error of a further base, over that of the best
+constexpr std::size_t bases = 2;                ///< that a further effect is tried beside: the best set of one may not be part of the best of two
+constexpr double needed_gain = 0.95;            ///< an effect must bring the validation error below this times what it was
+constexpr double needed_significance = 2.5;     ///< standard errors of the difference over blocks (16: a t of 2.5 is 1 in 40)
+constexpr double alike = 1.05;                  ///< validation errors within this ratio are not told apart,
+constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
+constexpr double clearly_worse = 1.3;           ///< ... unless they are beyond this ratio
+
+using Identity = std::set<std::pair<std::string, std::vector<std::size_t>>>;
+
+Identity identity(const Variant& v) {
+    Identity out;
+    for (const Amendment& a : v.amendments) out.emplace(a.effect, a.equations);
+    return out;
+}
+
+int added_parameters(const Variant& v) {
+    int out = 0;
+    for (const Amendment& a : v.amendments) out += static_cast<int>(a.names.size());
+    return out;
+}
+
+/// Deflated information criterion of v over the nominal model: larger is better.
+double criterion(const Variant& v, const Variant& nominal) {
+    double rows = 0;
+    for (const double n : v.score.independent) rows += n;
+    return log_gain(v.score, nominal.score) - added_parameters(v) * std::log(std::max(rows, 2.0));
+}
+
+std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, const Candidate& c) {
+    Amendment a = amendment(c.binding, base.model, c.scan);
+    const auto probe = bench.runnable(amended(base.text, base.whole, a));
+    if (!probe) return std::nullopt;
+    for (NewName& n : a.names) {   // the weak form's value is where the fit starts
+        if (n.constant) continue;
+        const int p = probe->parameter_index(n.name);
+        if (p >= 0) n.value = c.start[static_cast<std::size_t>(p)];
+        if (n.not_negative) n.value = std::max(n.value, 0.0);
+    }
+    auto amendments = base.amendments;
+    amendments.push_back(a);
+    Diagnostics quiet;
+    auto v = bench.prepare(amended(base.text, base.whole, a), std::move(amendments), quiet);
+    if (!v) return std::nullopt;
+    std::vector<double> carried;   // the base's parameters, the new ones beside them
+    for (const model::Parameter& p : v->model.parameters) {
+        const int old = base.model.parameter_index(p.name);
+        carried.push_back(old >= 0 ? base.fit.parameters[static_cast<std::size_t>(old)] : exact::nearest(*p.initial, plan::Scalar::float64));
+    }
+    std::vector<std::vector<double>> starts = {carried};
+    for (const int intervals : weak_intervals(bench.parts().fitted)) starts.push_back(weak_parameters(v->model, v->bench, bench.parts().fitted, intervals, carried));
+    bench.fit_and_score(*v, starts, base.fit.initial);
+    return v;
+}
+
+Evidence evidence_of(const Variant& v, const Variant& base, double strength, int step) {
+    const Amendment& a = v.amendments.back();
+    Evidence out{a.effect, "", "", strength, v.score.nrmse, log_gain(v.score, base.score), false, false, step};
+    for (std::size_t k = 0; k < a.equations.size(); ++k) {
+        out.equation += (k > 0 ? ", " : "") + v.whole.equations[a.equations[k]].name;
+        out.term += (k > 0 ? ", " : "") + a.terms[k];
+    }
+    return out;
+}
+
+bool indistinguishable(const Variant& best, const Variant& other) {
+    const double ratio = other.score.nrmse / best.score.nrmse;
+    return ratio < alike || (ratio < clearly_worse && significance(best.score, other.score) < surely_worse);
+}
+
+/// Without every effect whose absence is not noticed.
+Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
+    for (bool changed = true; changed && best.amendments.size() > 1;) {
+        changed = false;
+        for (std::size_t without = 0; without < best.amendments.size() && !changed; ++without) {
+            std::string text = nominal.text;
+            std::vector<Amendment> kept;
+            std::optional<Variant> v;
+            Diagnostics quiet;
+            for (std::size_t k = 0; k < best.amendments.size(); ++k) {
+                if (k == without) continue;
+                const auto model = model::read_from_text(text, bench.path(), false, quiet);
+                if (!model) break;
+                text = amended(text, *model, best.amendments[k]);
+                kept.push_back(best.amendments[k]);
+            }
+            if (kept.size() + 1 == best.amendments.size()) v = bench.prepare(text, kept, quiet);
+            if (!v) continue;
+            std::vector<double> carried;
+            for (const model::Parameter& p : v->model.parameters) carried.push_back(best.fit.parameters[static_cast<std::size_t>(best.model.parameter_index(p.name))]);
+            std::vector<std::vector<double>> starts = {carried};
+            for (const int intervals : weak_intervals(bench.parts().fitted)) starts.push_back(weak_parameters(v->model, v->bench, bench.parts().fitted, intervals, carried));
+            bench.fit_and_score(*v, starts, best.fit.initial);
+            if (worth_it(best.score, v->score)) continue;
+            best = std::move(*v);
+            changed = true;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+double gap_over_floor(const Score& score, const std::vector<double>& floor) {
+    double squares = 0;
+    for (std::size_t o = 0; o < floor.size(); ++o) {
+        if (!(floor[o] > 0)) return std::numeric_limits<double>::infinity();
+        squares += std::pow(score.error[o] / floor[o], 2) / static_cast<double>(floor.size());
+    }
+    return std::sqrt(squares);
+}
+
+bool worth_it(const Score& a, const Score& b) {
+    double ratio = 0;   // geometric mean over outputs: each counts alike, whatever its floor
+    for (std::size_t o = 0; o < a.error.size(); ++o) ratio += std::log(std::max(a.error[o], 1e-300) / std::max(b.error[o], 1e-300)) / static_cast<double>(a.error.size());
+    return std::exp(ratio) < needed_gain && significance(a, b) > needed_significance;
+}
+
+Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const std::vector<double>& floor, double enough, const StepReport& progress) {
+    Selection out{nominal, {}, {}};
+    std::vector<Variant> beside = {nominal};
+    std::set<Identity> tried;
+    for (int step = 1; step <= most_effects; ++step) {
+        std::vector<Variant> fitted;
+        std::vector<std::size_t> row;   // of the evidence, by fitted
+        for (std::size_t b = 0; b < beside.size(); ++b) {
+            const Variant& base = beside[b];
+            const double share = (step - 1 + static_cast<double>(b) / static_cast<double>(beside.size())) / most_effects;
+            if (progress) progress("screen effects", 0.1 + 0.8 * share);
+            std::size_t seen = 0;
+            for (const Candidate& c : screen(bench, base, effects, finalists, bindings_of_one)) {
+                if (++seen > 1 && c.strength < least_strength) break;
+                Identity id = identity(base);
+                id.emplace(c.binding.effect->name, c.binding.equations);
+                if (c.binding.effect->scans.empty() && !tried.insert(id).second) continue;
+                if (progress) progress("fit " + c.binding.effect->name, 0.1 + 0.8 * share + 0.2 / most_effects);
+                auto v = with_candidate(bench, base, c);
+                if (!v) continue;
+                row.push_back(out.evidence.size());
+                out.evidence.push_back(evidence_of(*v, base, c.strength, step));
+                fitted.push_back(std::move(*v));
+            }
+        }
+        if (fitted.empty()) break;
+        std::vector<std::size_t> order(fitted.size());
+        for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+        std::vector<double> merit;
+        for (const Variant& v : fitted) merit.push_back(criterion(v, nominal));
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
+        const Variant& top = fitted[order[0]];
+        if (!worth_it(top.score, out.best.score)) break;
+        out.evidence[row[order[0]]].chosen = true;
+        out.rivals.clear();
+        std::vector<Variant> next;
+        for (const std::size_t k : order) {
+            if (k != order[0] && indistinguishable(top, fitted[k])) {
+                out.rivals.push_back(fitted[k]);
+                out.evidence[row[k]].rival = true;
+            }
+            if (next.size() < bases && fitted[k].score.nrmse < a_base_within * top.score.nrmse) next.push_back(fitted[k]);
+        }
+        out.best = top;
+        beside = std::move(next);
+        if (gap_over_floor(out.best.score, floor) <= enough) break;
+    }
+    const std::size_t before = out.best.amendments.size();
+    out.best = pruned(bench, out.best, nominal);
+    if (out.best.amendments.size() < before) out.rivals.clear();
+    return out;
+}
+
+}  // namespace algest::lab

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The choice of effects: forward by free-run error on the validation rows, with replacement, then pruning.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lab/discovery.hpp"
+#include "lab/effects.hpp"
+#include "lab/variant.hpp"
+
+namespace algest::lab {
+
+/// What is going on, in words, with a share of the work done.
+using StepReport = std::function<void(const std::string&, double)>;
+
+struct Selection {
+    Variant best;                       ///< the nominal model itself where nothing was worth adding
+    std::vector<Variant> rivals;        ///< that the validation rows do not tell from it
+    std::vector<Evidence> evidence;
+};
+
+/// The error of a score over that of the sensors: rms over outputs. floor: by output, in its unit.
+double gap_over_floor(const Score& score, const std::vector<double>& floor);
+
+/// True when a is so much nearer than b that adding something to b is worth it.
+bool worth_it(const Score& a, const Score& b);
+
+/// Searches until the gap is within `enough` times the floor, nothing is worth adding, or `most` effects stand.
+Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const std::vector<double>& floor, double enough, const StepReport& progress);
+
+}  // namespace algest::lab

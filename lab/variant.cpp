@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/variant.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/weak_form.hpp"
+
+namespace algest::lab {
+
+namespace {
+
+constexpr double fit_share = 0.7;               ///< of the training rows are fitted, the rest validate
+constexpr std::size_t least_train = 100;        ///< rows
+constexpr std::size_t least_test = 10;
+constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
+constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
+constexpr int search_iterations = 12;
+constexpr std::size_t rows_of_an_undriven_run = 4000;
+constexpr double error_of_divergence = 1e3;     ///< sizes
+constexpr double lasting = 0.3;                 ///< share of a disturbed start that is still there a third of the way on: it does not fade
+constexpr std::size_t horizons = 20;            ///< short runs in the training rows
+constexpr std::size_t shortest_horizon = 50;    ///< rows
+
+void names_in(const formula::Formula& f, std::set<std::string>& out) {
+    if (f->kind == formula::Kind::name) out.insert(f->name);
+    for (const formula::Formula& a : f->arguments) names_in(a, out);
+}
+
+}  // namespace
+
+std::optional<Parts> parts_of(const Recording& recording, const std::optional<std::pair<double, double>>& train, const std::optional<std::pair<double, double>>& test, Diagnostics& diagnostics) {
+    const std::size_t samples = recording.samples();
+    const auto row = [&](double t) { return static_cast<std::size_t>(std::lower_bound(recording.t.begin(), recording.t.end(), t - 0.5 * recording.period) - recording.t.begin()); };
+    Parts out{};
+    out.train = train ? Rows{row(train->first), row(train->second)} : Rows{0, samples * 7 / 10};
+    out.test = test ? Rows{row(test->first), std::min(row(test->second) + 1, samples)} : Rows{out.train.end, samples};
+    if (out.train.end <= out.train.begin + least_train || out.test.end <= out.test.begin + least_test) {
+        const auto size = [](const Rows& r) { return std::to_string(r.end > r.begin ? r.end - r.begin : 0); };
+        diagnostics.error(recording.file, {}, "too short: " + size(out.train) + " samples to train on, " + size(out.test) + " to test on",
+                          "at least " + std::to_string(least_train) + " and " + std::to_string(least_test) + " are needed");
+        return std::nullopt;
+    }
+    if (out.test.begin < out.train.end) {
+        diagnostics.error(recording.file, {}, "the test stretch starts before the training stretch ends", "test on later data than you train on: --train A:B --test C:D with B <= C");
+        return std::nullopt;
+    }
+    const std::size_t middle = out.train.begin + static_cast<std::size_t>(fit_share * static_cast<double>(out.train.size()));
+    out.fitted = {out.train.begin, middle};
+    out.validation = {middle, out.train.end};
+    return out;
+}
+
+std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<Amendment> amendments, Diagnostics& diagnostics) {
+    Diagnostics quiet;
+    Diagnostics& said = amendments.empty() ? diagnostics : quiet;
+    auto model = model::read_from_text(text, path_, false, said);
+    if (!model) return std::nullopt;
+    if (amendments.empty()) find_idle_kinematics(*model);
+    const model::Model whole = *model;
+    drop_idle_kinematics(*model);
+    auto ready = bench(*model, recording_, said);
+    if (!ready) return std::nullopt;
+    ready->options.tolerance = search_tolerance;
+    if (ready->system.driven.empty() && ready->system.laws.empty()) ready->options.stride = std::max<std::size_t>(1, parts_.train.size() / rows_of_an_undriven_run);
+    return Variant{text, std::move(amendments), std::move(*model), whole, std::move(*ready), {}, {}};
+}
+
+std::optional<model::Model> Workbench::runnable(const std::string& text) const {
+    Diagnostics quiet;
+    auto model = model::read_from_text(text, path_, false, quiet);
+    if (model) drop_idle_kinematics(*model);
+    return model;
+}
+
+/// Equations der(x) = v whose x nothing else uses and nothing scores: x is measured, and replayed where an effect needs it.
+void Workbench::find_idle_kinematics(const model::Model& model) {
+    for (std::size_t e = 0; e < model.equations.size(); ++e) {
+        const formula::Formula& left = model.equations[e].sides.left;
+        if (left->kind != formula::Kind::call || left->name != "der" || left->arguments.size() != 1) continue;
+        const model::Signal& x = *model.signal(left->arguments[0]->name);
+        bool used = false;
+        for (std::size_t other = 0; other < model.equations.size(); ++other) {
+            std::set<std::string> names;
+            names_in(model.equations[other].sides.left, names);
+            names_in(model.equations[other].sides.right, names);
+            used = used || (other != e && names.count(x.name) > 0);
+        }
+        if (!used && !x.scored && recording_.column(x.column) != nullptr) idle_.insert(model.equations[e].name);
+    }
+}
+
+void Workbench::drop_idle_kinematics(model::Model& model) const {
+    model.equations.erase(std::remove_if(model.equations.begin(), model.equations.end(), [&](const model::Equation& e) { return idle_.count(e.name) > 0; }), model.equations.end());
+}
+
+void Workbench::fit_and_score(Variant& v, const std::vector<std::vector<double>>& starts, const std::vector<double>& initial) const {
+    FitStart start{starts.at(0), {}, initial, parts_.fitted, horizon_, search_iterations, search_accuracy};
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& candidate : starts) {
+        FitStart at = start;
+        at.parameters = candidate;
+        const double error = output_error(v.model, v.bench, at);
+        if (error < least) {
+            least = error;
+            start.parameters = candidate;
+        }
+    }
+    v.fit = fit(v.model, v.bench, start);
+    v.score = score(v);
+}
+
+void Workbench::refine(Variant& v) const { v.fit = fit(v.model, v.bench, {v.fit.parameters, {}, v.fit.initial, parts_.train, horizon_}); }
+
+Score Workbench::score(const Variant& v) const {
+    const Rows rows = horizon_ > 0 ? parts_.validation : parts_.train;
+    const Prediction run = predict(v.bench, v.fit.parameters, v.fit.initial, rows, horizon_);
+    const std::size_t stride = v.bench.options.stride;
+    const std::size_t skip = (parts_.validation.begin - rows.begin + stride - 1) / stride;
+    Score out;
+    double squares_of_nrmse = 0;
+    const auto outputs = scored_outputs(v.model, v.bench);
+    for (const int s : outputs) {
+        const std::vector<double>& measured = v.bench.measured[static_cast<std::size_t>(s)];
+        const double size = size_of(measured);
+        std::vector<double> miss;
+        for (std::size_t k = skip; k < run.rows; ++k) {
+            const double e = measured[rows.begin + k * stride] - run.signals[static_cast<std::size_t>(s)][k];
+            miss.push_back(std::isfinite(e) ? std::clamp(e, -error_of_divergence * size, error_of_divergence * size) : error_of_divergence * size);
+        }
+        std::vector<double> blocks(score_blocks, 0.0);
+        double squares = 0;
+        for (std::size_t k = 0; k < miss.size(); ++k) {
+            blocks[k * score_blocks / miss.size()] += miss[k] * miss[k] * score_blocks / static_cast<double>(miss.size());
+            squares += miss[k] * miss[k];
+        }
+        out.error.push_back(std::sqrt(squares / static_cast<double>(miss.size())));
+        out.blocks.push_back(blocks);
+        out.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
+        squares_of_nrmse += std::pow(out.error.back() / size, 2);
+    }
+    out.nrmse = std::sqrt(squares_of_nrmse / static_cast<double>(std::max<std::size_t>(outputs.size(), 1)));
+    return out;
+}
+
+FreeRun Workbench::run(const Variant& v, double tolerance) const {
+    RunOptions options = v.bench.options;
+    options.tolerance = tolerance;
+    options.first = parts_.fitted.begin;
+    options.stride = 1;
+    return free_run(v.bench.system, v.fit.parameters, v.fit.initial, v.bench.drive, options);
+}
+
+void Workbench::choose_horizon(const Variant& nominal) {
+    const Rows rows = {parts_.train.begin, parts_.train.begin + parts_.train.size() / 3};
+    constexpr double push = 0.01;
+    std::vector<double> pushed = nominal.fit.initial;
+    for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] += push * nominal.bench.options.scale[i];
+    const Prediction here = predict(nominal.bench, nominal.fit.parameters, nominal.fit.initial, rows, 0);
+    const Prediction there = predict(nominal.bench, nominal.fit.parameters, pushed, rows, 0);
+    double largest = 0;
+    for (const int s : scored_outputs(nominal.model, nominal.bench)) {
+        const std::size_t k = static_cast<std::size_t>(s);
+        const std::size_t last = here.rows - here.rows / 5;
+        double squares = 0;
+        for (std::size_t row = last; row < here.rows; ++row) squares += std::pow(there.signals[k][row] - here.signals[k][row], 2);
+        const double left = std::sqrt(squares / static_cast<double>(here.rows - last)) / (push * nominal.bench.options.scale[static_cast<std::size_t>(std::find_if(nominal.bench.system.states.begin(), nominal.bench.system.states.end(), [&](const StateEntry& e) { return e.signal == s; }) - nominal.bench.system.states.begin())]);
+        largest = std::isfinite(left) ? std::max(largest, left) : std::numeric_limits<double>::infinity();
+    }
+    if (!(largest > lasting)) return;
+    const std::size_t stride = nominal.bench.options.stride;
+    horizon_ = std::max(parts_.train.size() / horizons, shortest_horizon) / stride * stride;
+}
+
+double log_gain(const Score& a, const Score& b) {
+    double out = 0;
+    for (std::size_t o = 0; o < a.error.size(); ++o) {
+        if (!(a.error[o] > 0) || !(b.error[o] > 0)) continue;
+        out += std::min(a.independent[o], b.independent[o]) * 2 * std::log(b.error[o] / a.error[o]);
+    }
+    return out;
+}
+
+double significance(const Score& a, const Score& b) {
+    double mean = 0;
+    std::vector<double> gain(score_blocks, 0.0);
+    for (std::size_t k = 0; k < score_blocks; ++k) {
+        for (std::size_t o = 0; o < a.error.size(); ++o) {
+            const double tiny = 1e-12 * (a.error[o] * a.error[o] + b.error[o] * b.error[o]) + 1e-300;
+            gain[k] += std::log((b.blocks[o][k] + tiny) / (a.blocks[o][k] + tiny));
+        }
+        mean += gain[k] / static_cast<double>(score_blocks);
+    }
+    double squares = 0;
+    for (const double g : gain) squares += (g - mean) * (g - mean);
+    const double count = static_cast<double>(score_blocks);
+    const double error = std::sqrt(squares / (count * (count - 1)));
+    return error > 0 ? mean / error : 0;
+}
+
+}  // namespace algest::lab

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A model text with what was added to it, run, fitted and scored on the parts of a recording.
+#pragma once
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "generator/diagnostics.hpp"
+#include "lab/amend.hpp"
+#include "lab/fit.hpp"
+
+namespace algest::lab {
+
+/// Which rows of a recording serve what. The test rows are scored once, at the end.
+struct Parts {
+    Rows train;
+    Rows test;
+    Rows fitted;       ///< the first part of train
+    Rows validation;   ///< the rest of train: decides what is added
+};
+
+/// The parts of a recording of `samples` rows; nullopt, and an error in `diagnostics`, where a stretch is too short.
+/// train, test: in seconds, or the default of 70 and 30 percent.
+std::optional<Parts> parts_of(const Recording& recording, const std::optional<std::pair<double, double>>& train, const std::optional<std::pair<double, double>>& test, Diagnostics& diagnostics);
+
+/// How far a variant is from the validation rows.
+struct Score {
+    std::vector<double> error;                  ///< by output: rms over the rows, in the output's unit
+    std::vector<std::vector<double>> blocks;    ///< by output: mean square error of each of `score_blocks` blocks
+    std::vector<double> independent;            ///< by output: rows that count, autocorrelated ones as less than one
+    double nrmse = 0;                           ///< rms over outputs of error / size
+};
+
+constexpr std::size_t score_blocks = 16;
+
+struct Variant {
+    std::string text;
+    std::vector<Amendment> amendments;
+    model::Model model;      ///< what is run: without idle kinematics
+    model::Model whole;      ///< of the text
+    Bench bench;
+    Fit fit;
+    Score score;
+};
+
+/// The workplace of a search: one nominal text, one recording, and what all its variants share.
+class Workbench {
+public:
+    /// path: of the model, for messages.
+    Workbench(std::string path, const Recording& recording, Parts parts) : path_(std::move(path)), recording_(recording), parts_(parts) {}
+
+    /// Reads the text and makes it ready to run. Errors of the nominal text (no amendments) go to `diagnostics`; nullopt after them.
+    /// The first call, with the nominal text, decides which kinematic equations are idle.
+    std::optional<Variant> prepare(const std::string& text, std::vector<Amendment> amendments, Diagnostics& diagnostics);
+
+    /// Fits in free run from the best of the starts and scores on the validation rows.
+    void fit_and_score(Variant& v, const std::vector<std::vector<double>>& starts, const std::vector<double>& initial) const;
+
+    /// Fits once more, to all training rows and to the end: what is reported, once nothing is left to decide. The score stays.
+    void refine(Variant& v) const;
+
+    /// Free run of a fitted variant over all rows from the first fitted one on.
+    FreeRun run(const Variant& v, double tolerance) const;
+
+    /// Decides, once the nominal model is fitted, whether a long run says anything (docs/discover.md, "drift").
+    void choose_horizon(const Variant& nominal);
+
+    /// Samples after which a run starts anew from what was measured; 0: never.
+    std::size_t horizon() const { return horizon_; }
+
+    const Parts& parts() const { return parts_; }
+    const Recording& recording() const { return recording_; }
+    const std::string& path() const { return path_; }
+
+    /// A text as it is run: without idle kinematics.
+    std::optional<model::Model> runnable(const std::string& text) const;
+
+private:
+    void find_idle_kinematics(const model::Model& model);
+    void drop_idle_kinematics(model::Model& model) const;
+    Score score(const Variant& v) const;
+
+    std::string path_;
+    const Recording& recording_;
+    Parts parts_;
+    std::set<std::string> idle_;
+    std::size_t horizon_ = 0;
+};
+
+/// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):
+/// the sum over outputs of rows times log(b^2/a^2).
+double log_gain(const Score& a, const Score& b);
+
+/// How sure it is that a is nearer than b: mean over its standard error, block by block, of the logarithm of the ratio of their squared
+/// errors (logarithms, so that one stretch with a large error does not speak for all).
+double significance(const Score& a, const Score& b);
+
+}  // namespace algest::lab
