@@ -16,6 +16,7 @@ constexpr double width = 960;                ///< px, of every figure
 constexpr double right_edge = width - 22;
 constexpr double pixels_per_column = 1.5;    ///< of an envelope
 constexpr double dot = 3.2;                  ///< px
+constexpr double wide_dot = 5;               ///< px, of what lies below dots and must be seen
 constexpr std::size_t dense_rows = 600;      ///< a stretch with more samples may need a detail
 constexpr std::size_t dense_swings = 24;     ///< and so may one with more swings
 constexpr std::size_t swings_shown = 8;      ///< in a detail
@@ -64,10 +65,10 @@ void draw_line(Panel& panel, const Curve& curve, const char* title, const char* 
     panel.drawn.push_back({envelope(curve, panel.x.from, panel.x.to, columns(panel)), title, colour, line_width, false});
 }
 
-void draw_dots(Panel& panel, const Curve& points, const char* title, const char* colour) {
+void draw_dots(Panel& panel, const Curve& points, const char* title, const char* colour, double size = dot) {
     const auto across = static_cast<std::size_t>((panel.right - panel.left) / dot);
     const auto up = static_cast<std::size_t>((panel.bottom - panel.top) / dot);
-    panel.drawn.push_back({thinned(points, panel.x.from, panel.x.to, panel.y.from, panel.y.to, across, up), title, colour, dot, true});
+    panel.drawn.push_back({thinned(points, panel.x.from, panel.x.to, panel.y.from, panel.y.to, across, up), title, colour, size, true});
 }
 
 void band_of_noise(Panel& panel, double noise) {
@@ -240,7 +241,7 @@ std::optional<Figure> time_figure(const Discovery& discovery, const EquationResi
     panel.left = room_left;
     panel.right = right_edge;
     panel.top = 28;
-    panel.bottom = 198;
+    panel.bottom = 212;
     panel.x = {"t", "s", residual.t.front(), residual.t.back(), true};
     if (!(panel.x.to > panel.x.from)) return std::nullopt;
     const bool after = residual.after.size() == residual.t.size();
@@ -292,12 +293,11 @@ std::optional<Figure> law_figure(const EquationResidual& residual) {
     const double centre = 0.5 * (across.from + across.to);
     Figure out{"residual of " + residual.equation + " against " + residual.signal, static_cast<int>(width), static_cast<int>(panel.bottom + room_below), {}};
     Panel left = panel;
+    const Curve sorted = law ? sorted_by_x({residual.x, residual.law}) : Curve{};
+    const bool line = is_function(sorted);
+    if (law && !line) draw_dots(left, sorted, "law", colour::law, wide_dot);
     draw_dots(left, {residual.x, open}, law && after ? "without the added terms" : "before", law && after ? colour::without : colour::before);
-    if (law) {
-        const Curve sorted = sorted_by_x({residual.x, residual.law});
-        if (is_function(sorted)) left.drawn.push_back({mean_line(sorted, 240), "law", colour::law, 2, false});
-        else draw_dots(left, sorted, "law", colour::law);
-    }
+    if (line) left.drawn.push_back({mean_line(sorted, 240), "law", colour::law, 2, false});
     left.headings = {{centre, law && after ? "without the added terms, and their law" : "before"}};
     out.panels.push_back(left);
     if (after) {

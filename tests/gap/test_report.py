@@ -25,7 +25,7 @@ PICTURES = BUILD / "tests" / "report"
 HEADINGS = ["Doubts", "Error on the test stretch", "Measured and simulated, test stretch", "Residual of each equation over time",
             "Residual against the signal that explains it", "Where the model was off", "Evidence", "Parameters", "Change to the model", "Next"]
 # Texts of a figure that are neither a number nor the label of an axis.
-PLAIN = {"test stretch", "detail: the tinted part, where before is off most", "train", "test", "before", "after", "before, and the law that was found"}
+PLAIN = {"test stretch", "detail: the tinted part, where before is off most", "train", "test", "before", "after", "without the added terms, and their law"}
 NUMBER = re.compile(r"-?\d+(\.\d+)?")
 UNIT = re.compile(r".+ \[[^\]]+\]")
 MEASURE = """<script>

@@ -115,7 +115,7 @@ TEST_CASE("report: everything that a discovery holds is on the page, escaped") {
     CHECK(scene.diagnostics.sorted().empty());
     CHECK(count(page, "<svg") == 6);
     for (const char* part : {"a &lt;b&gt;model&lt;/b&gt; &amp; more", "<b>coulomb_friction</b> is missing in &lsquo;e0 &lt;&quot;&amp;&#39;&gt;&rsquo;", "dry &amp; dull &lt;friction&gt;",
-                             "Tc = 0.01200&nbsp;&plusmn;&nbsp;0.00010&nbsp;N.m", "the noise may be wrong &amp; so may this", "20.0&times; &rarr; 1.01&times;", "Every output is at its noise floor",
+                             "Tc = <span class=\"q\">0.01200&nbsp;&plusmn;&nbsp;0.00010&nbsp;N.m", "the noise may be wrong &amp; so may this", "20.0&times; &rarr; 1.01&times;", "Every output is at its noise floor",
                              "Next best, constant_load: error 5.00 times as large", "follows the sign of i_0", "not fitted", "1.235&nbsp;&plusmn;&nbsp;0.012", "(20.00&nbsp;&plusmn;&nbsp;0.30)&middot;10<sup>-6</sup>",
                              "<span class=\"added\">+a &gt; b", "<span class=\"removed\">-a &lt; b", "patch &#39;my model.toml&#39; &lt; found/m.patch", "far: not seen by the data", "residual [unknown]"}) {
         INFO(part);
