@@ -4,7 +4,8 @@
 #include <ginac/ginac.h>
 
 #include <algorithm>
-#include <numeric>
+#include <map>
+#include <set>
 
 #include "generator/ginac_exact.hpp"
 
@@ -235,8 +236,16 @@ private:
     }
 
     bool lump_component(const Component& c, int number) {
+        const bool can_divide = size_of_denominator(c) <= 64;
+        if (const std::size_t missing = undetermined(c, false).missing; missing > 0) {
+            return refuse_shortage(c, missing, can_divide ? "enter only through " + seen(divided(c)) : "enter only together");
+        }
+        const bool ties = std::any_of(forms_.begin(), forms_.end(), [](const OperatorForm& f) { return without_parameters(f); });
+        if (ties) {
+            if (const Undetermined open = undetermined(c, true); open.missing > 0) return refuse_tied(c, open);
+        }
         const bool linear = linear_as_written(c);
-        if (size_of_denominator(c) > 64) {
+        if (!can_divide) {
             if (linear) return take_as_written(c, number);
             const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
             diagnostics_.error(model_.path, equation.at, "the leading coefficients of the equations that share parameters are too long to divide by", "name sums of parameters as parameters of their own");
@@ -246,7 +255,6 @@ private:
         const std::size_t physical = c.parameters.size();
         if (linear && physical < quotient.unknowns.size()) return take_as_written(c, number);
         if (quotient.unknowns.size() > physical) return refuse_surplus(c, quotient);
-        if (rank(c, quotient) < physical) return refuse_shortage(c, quotient, physical - rank(c, quotient));
         return take_divided(c, quotient, number);
     }
 
@@ -274,9 +282,9 @@ private:
         return formula.size() <= longest_text ? formula : formula.substr(0, longest_text) + "...";
     }
 
-    bool refuse_inverse(const Component& c, const std::string& why) {
+    bool refuse_inverse(const Component& c, const std::vector<int>& parameters, const std::string& how) {
         diagnostics_.error(model_.path, model_.equations[static_cast<std::size_t>(c.equations[0])].at,
-                           "the combinations that the rows see cannot be solved for " + list(c.parameters) + " " + why, "name the combinations as parameters of their own");
+                           "the combinations that the rows see cannot be solved for " + list(parameters) + " " + how, "name the combinations as parameters of their own");
         return false;
     }
 
@@ -299,9 +307,8 @@ private:
         return false;
     }
 
-    /// How many of the parameters the unknowns determine: the rank of the exact Jacobian of unknowns by parameters, at one
-    /// point (primes), where it is what it is almost everywhere. b/a, c/a and c/b are three unknowns of rank 2.
-    std::size_t rank(const Component& c, const Divided& quotient) const {
+    /// Values of the parameters (primes over 7) at which things are what they are almost everywhere.
+    std::vector<Rational> generic_point() const {
         std::vector<Rational> point(variables_, 1);
         int prime = 101;
         for (Rational& x : point) {
@@ -309,28 +316,110 @@ private:
             do prime += 2;
             while (prime % 3 == 0 || prime % 5 == 0 || prime % 7 == 0 || prime % 11 == 0 || prime % 13 == 0);
         }
-        std::vector<std::vector<Rational>> rows;
-        const Rational below = value_at(quotient.denominator, point);
-        for (const Polynomial& u : quotient.unknowns) {
-            std::vector<Rational> row;
-            for (const int p : c.parameters) {
-                const std::size_t k = static_cast<std::size_t>(p);
-                row.push_back(value_at(derivative(u, k), point) * below - value_at(u, point) * value_at(derivative(quotient.denominator, k), point));
+        return point;
+    }
+
+    /// The parameters that no data determine, and how many of them would have to be known.
+    struct Undetermined {
+        std::size_t missing;
+        std::vector<int> parameters;
+    };
+
+    /// The equations hold at other values too where each of their coefficients moves by its derivatives as much as a factor on
+    /// its equation, or with `tied` a multiple of an equation without parameters, would move it: what the rank of derivatives
+    /// lacks beside these columns. b/a, c/a and c/b are three unknowns, and leave one of three parameters open.
+    Undetermined undetermined(const Component& c, bool tied) const {
+        const std::vector<Rational> point = generic_point();
+        std::map<std::pair<int, std::string>, std::vector<Rational>> rows;   // by equation and signal; a column for each parameter ...
+        const std::size_t physical = c.parameters.size();
+        std::size_t columns = physical;
+        const auto entry = [&](int e, const std::string& signal, std::size_t column) -> Rational& {
+            std::vector<Rational>& row = rows[{e, signal}];
+            if (row.size() <= column) row.resize(column + 1, 0);
+            return row[column];
+        };
+        each_term(c, [&](int e, int, const Term& term) {
+            const std::string signal = differentiated_text(forms_[static_cast<std::size_t>(e)], term.product, 0);
+            for (std::size_t k = 0; k < physical; ++k) entry(e, signal, k) = value_at(derivative(term.coefficient, static_cast<std::size_t>(c.parameters[k])), point);
+        });
+        for (const int e : c.equations) {   // ... and one for each factor
+            for (const Term& term : forms_[static_cast<std::size_t>(e)].terms) {
+                if (!kept(static_cast<std::size_t>(e), term)) continue;
+                entry(e, differentiated_text(forms_[static_cast<std::size_t>(e)], term.product, 0), columns) = value_at(term.coefficient, point);
             }
-            rows.push_back(row);
+            ++columns;
         }
+        for (const int e : c.equations) {   // ... and for each tie
+            for (std::size_t r = 0; tied && r < forms_.size(); ++r) {
+                for (int times = 0; without_parameters(forms_[r]) && times <= (all_alone(forms_[r]) ? forms_[static_cast<std::size_t>(e)].n : 0); ++times) {
+                    for (const Term& term : forms_[r].terms) {
+                        const bool erased = forms_[r].is_constant(term.product) && (times > 0 || model_.equations[static_cast<std::size_t>(e)].kappa > 0);
+                        if (!erased) entry(e, differentiated_text(forms_[r], term.product, times), columns) = term.coefficient.begin()->second;
+                    }
+                    ++columns;
+                }
+            }
+        }
+        std::vector<std::vector<Rational>> matrix;
+        for (auto& [place, row] : rows) {
+            row.resize(columns, 0);
+            matrix.push_back(row);
+        }
+        std::vector<bool> counted(columns, true);
+        const std::size_t full = rank(matrix, counted);
+        std::fill(counted.begin(), counted.begin() + static_cast<std::ptrdiff_t>(physical), false);
+        Undetermined out{physical - (full - rank(matrix, counted)), {}};
+        std::fill(counted.begin(), counted.end(), true);
+        for (std::size_t k = 0; out.missing > 0 && k < physical; ++k) {   // those whose column adds nothing to the others
+            counted[k] = false;
+            if (rank(matrix, counted) == full) out.parameters.push_back(c.parameters[k]);
+            counted[k] = true;
+        }
+        return out;
+    }
+
+    static std::size_t rank(std::vector<std::vector<Rational>> rows, const std::vector<bool>& with_column) {
         std::size_t out = 0;
-        for (std::size_t column = 0; column < c.parameters.size() && out < rows.size(); ++column) {
+        for (std::size_t column = 0; column < with_column.size() && out < rows.size(); ++column) {
+            if (!with_column[column]) continue;
             std::size_t pivot = out;
             while (pivot < rows.size() && cln::zerop(rows[pivot][column])) ++pivot;
             if (pivot == rows.size()) continue;
             std::swap(rows[out], rows[pivot]);
             for (std::size_t r = out + 1; r < rows.size(); ++r) {
+                if (cln::zerop(rows[r][column])) continue;
                 const Rational factor = rows[r][column] / rows[out][column];
-                for (std::size_t j = column; j < c.parameters.size(); ++j) rows[r][j] = rows[r][j] - factor * rows[out][j];
+                for (std::size_t j = column; j < with_column.size(); ++j) rows[r][j] = rows[r][j] - factor * rows[out][j];
             }
             ++out;
         }
+        return out;
+    }
+
+    static bool without_parameters(const OperatorForm& form) {
+        return std::all_of(form.terms.begin(), form.terms.end(), [](const Term& t) { return is_constant(t.coefficient); });
+    }
+
+    /// A signal or derivative by itself, or a constant: what can be differentiated term by term.
+    static bool all_alone(const OperatorForm& form) {
+        return std::all_of(form.terms.begin(), form.terms.end(), [&](const Term& t) { return form.is_constant(t.product) || is_alone(form, t.product); });
+    }
+
+    static bool is_alone(const OperatorForm& form, const equation::Product& product) {
+        return product.size() == 1 && product[0].power == 1 && form.atoms[static_cast<std::size_t>(product[0].atom)].kind != equation::Atom::Kind::function;
+    }
+
+    /// "der(x,3)" for der(x) differentiated twice; otherwise the factors in the order of their texts: each equation numbers its
+    /// atoms by itself.
+    std::string differentiated_text(const OperatorForm& form, const equation::Product& product, int times) const {
+        if (is_alone(form, product)) {
+            const equation::Atom& atom = form.atoms[static_cast<std::size_t>(product[0].atom)];
+            return "der(" + model_.signals[static_cast<std::size_t>(atom.signal)].name + "," + std::to_string(atom.order + times) + ")";
+        }
+        std::set<std::string> factors;
+        for (const equation::Factor& f : product) factors.insert("(" + form.atoms[static_cast<std::size_t>(f.atom)].text + ")^" + std::to_string(f.power));
+        std::string out;
+        for (const std::string& f : factors) out += f;
         return out;
     }
 
@@ -355,63 +444,43 @@ private:
         return out;
     }
 
-    bool refuse_shortage(const Component& c, const Divided& quotient, std::size_t missing) {
+    bool refuse_shortage(const Component& c, std::size_t missing, const std::string& how) {
         const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
-        diagnostics_.unidentifiable(model_.path, equation.at,
-                                    "the " + std::to_string(c.parameters.size()) + " parameters " + list(c.parameters) + " enter only through " + seen(quotient),
+        diagnostics_.unidentifiable(model_.path, equation.at, "the " + std::to_string(c.parameters.size()) + " parameters " + list(c.parameters) + " " + how,
                                     "declare " + std::to_string(missing) + " of them under [constants], or name these combinations as parameters");
         return false;
     }
 
+    bool refuse_tied(const Component& c, const Undetermined& open) {
+        const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
+        diagnostics_.unidentifiable(model_.path, equation.at, list(open.parameters) + " cannot be told apart: an equation without unknowns ties the signals beside them together",
+                                    "declare " + std::to_string(open.missing) + " of them under [constants], or write what one signal is by the others");
+        return false;
+    }
+
+    /// Every parameter is an unknown.
     bool take_as_written(const Component& c, int number) {
         const int first = static_cast<int>(out_.unknowns.size());
-        Span span;   // of the coefficient vectors of the unknowns, one variable a term
         for (const int p : c.parameters) {
-            Polynomial meaning;
             Exponents e(variables_, 0);
             e[static_cast<std::size_t>(p)] = 1;
-            meaning.emplace(e, 1);
-            out_.unknowns.push_back({names_[static_cast<std::size_t>(p)], {meaning, constant(1, variables_)}, number});
+            out_.inverse[static_cast<std::size_t>(p)] = identity(static_cast<int>(out_.unknowns.size()));
+            out_.unknowns.push_back({names_[static_cast<std::size_t>(p)], {Polynomial{{e, 1}}, constant(1, variables_)}, number});
         }
-        std::vector<Polynomial> columns(c.parameters.size());
-        int place = 0;
-        bool known = false;
         each_term(c, [&](int e, int k, const Term& term) {
             LumpedTerm lumped{k, 0, {}};
             for (const auto& [exponents, coefficient] : term.coefficient) {
                 const auto at = std::find(exponents.begin(), exponents.end(), 1);
                 if (at == exponents.end()) {
                     lumped.known = coefficient;
-                    known = true;
                     continue;
                 }
                 const int p = static_cast<int>(at - exponents.begin());
-                const std::size_t local = static_cast<std::size_t>(std::find(c.parameters.begin(), c.parameters.end(), p) - c.parameters.begin());
+                const auto local = std::find(c.parameters.begin(), c.parameters.end(), p) - c.parameters.begin();
                 lumped.unknown.emplace_back(first + static_cast<int>(local), coefficient);
-                columns[local].emplace(Exponents{place}, coefficient);
             }
-            ++place;
             keep(e, lumped, number, false, one());
         });
-        if (!known) {
-            const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
-            diagnostics_.unidentifiable(model_.path, equation.at, "nothing known stands in the equations of " + list(c.parameters) + ": they hold for any multiple of their values",
-                                        "declare one of them under [constants]");
-            return false;
-        }
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            const Span::Reduced reduced = span.reduce(columns[k]);
-            if (reduced.rest.empty()) {
-                const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
-                diagnostics_.unidentifiable(model_.path, equation.at, "parameter '" + names_[static_cast<std::size_t>(c.parameters[k])] + "' enters only together with others of " + list(c.parameters),
-                                            "declare it under [constants], or name the combination as a parameter");
-                return false;
-            }
-            span.add(reduced, 1);
-        }
-        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
-            out_.inverse[static_cast<std::size_t>(c.parameters[k])] = identity(first + static_cast<int>(k));
-        }
         return true;
     }
 
@@ -481,12 +550,7 @@ private:
         std::vector<std::pair<int, ex>> solved;
         while (!open.empty()) {
             const auto choice = most_lonely(equations, open, symbols);
-            if (!choice) {
-                const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
-                diagnostics_.error(model_.path, equation.at, "the combinations that the rows see cannot be solved for " + list(open) + " by rational operations",
-                                   "name the combination as a parameter of its own");
-                return false;
-            }
+            if (!choice) return refuse_inverse(c, open, "by rational operations");
             const auto [e, p] = *choice;
             const GiNaC::symbol& x = symbols[static_cast<std::size_t>(p)];
             const ex solution = (-equations[e].coeff(x, 0) / equations[e].coeff(x, 1)).normal();
@@ -497,9 +561,9 @@ private:
                 const ex parts = earlier.numer_denom();
                 terms += terms_after(parts.op(0).expand(), x, solution) + terms_after(parts.op(1).expand(), x, solution);
             }
-            if (terms > most_terms) return refuse_inverse(c, "in fewer than " + std::to_string(static_cast<int>(most_terms)) + " terms");
+            if (terms > most_terms) return refuse_inverse(c, c.parameters, "in fewer than " + std::to_string(static_cast<int>(most_terms)) + " terms");
             for (const auto& [q, earlier] : solved) {
-                if (earlier.denom().subs(x == solution).normal().is_zero()) return refuse_inverse(c, "at any value: a denominator vanishes");
+                if (earlier.denom().subs(x == solution).normal().is_zero()) return refuse_inverse(c, c.parameters, "at any value: a denominator vanishes");
             }
             for (ex& other : equations) other = other.subs(x == solution).normal().numer().expand();
             for (auto& [q, earlier] : solved) earlier = earlier.subs(x == solution).normal();
@@ -510,7 +574,20 @@ private:
             const ex parts = solution.normal().numer_denom();
             out_.inverse[static_cast<std::size_t>(p)] = reduced({to_polynomial(parts.op(0).expand(), unknowns), to_polynomial(parts.op(1).expand(), unknowns)});
         }
-        return true;
+        return gives_back(c) || refuse_inverse(c, c.parameters, "by rational operations");
+    }
+
+    /// True when the inverse undoes the meanings. It may not: a square that is multiplied by a denominator can lose a degree where
+    /// the two have a factor in common, and what is then solved is that factor.
+    bool gives_back(const Component& c) const {
+        const std::vector<Rational> point = generic_point();
+        std::vector<Rational> unknowns;
+        for (const Unknown& u : out_.unknowns) unknowns.push_back(value_at(u.meaning.numerator, point) / value_at(u.meaning.denominator, point));
+        return std::all_of(c.parameters.begin(), c.parameters.end(), [&](int p) {
+            const Quotient& inverse = *out_.inverse[static_cast<std::size_t>(p)];
+            const Rational below = value_at(inverse.denominator, unknowns);
+            return !cln::zerop(below) && value_at(inverse.numerator, unknowns) == below * point[static_cast<std::size_t>(p)];
+        });
     }
 
     static double terms_of(const ex& expanded) { return GiNaC::is_a<GiNaC::add>(expanded) ? static_cast<double>(expanded.nops()) : 1; }

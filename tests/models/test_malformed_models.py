@@ -520,6 +520,8 @@ MATHEMATICS = [
     ("second derivative times a signal", ode("der(x) = a*x + b*u*▸der(y, 2)"), "order above 1"),
     ("products that outnumber the parameters", changed(PLAIN, '"der(x) = a*x + b*u"', '▸"der(x) = a*x + b*u + a*b*y"'), "because of the term"),
     ("a square that cannot be undone", changed(PLAIN, '"der(x) = a*x + b*u"', '▸"der(x) = a^2*x + b*u"'), "cannot be solved for a"),
+    ("a square behind denominators", changed(PLAIN, "a = {}\nb = {}", "a = {}\nb = {}\nq = {}\nd = {}\ne = {}", '"der(x) = a*x + b*u"',
+        '▸"b*e*der(x) = 6*d*u"\n[[equation]]\node = "b*der(y) = q^2*d/e*u + (2*d + q)*x"\n[[equation]]\node = "a*der(u) = (9 - e)*x + 2/5/b*y"'), "cannot be solved for a, b, q, d, e"),
     ("division by what cancels", ode("der(x) = a*x + b*u + y/▸(a - a)"), "division by zero"),
     ("division by signals that cancel", ode("der(x) = a*x + b*u/▸(y + u - u - y)"), "division by zero"),
     ("division by what cancels once it is multiplied out", ode("der(x) = a*x + b*u + y*▸((a + b)^2 - a^2 - 2*a*b - b^2)^-1"), "division by zero"),

@@ -47,6 +47,12 @@ CASES = [
         ("a*sin(cos(u + y)) + b*sin(cos(y + u))", "a + b"), ("a*max(u, y) + b*max(y, u)", "a + b"), ("a*sqrt(u + y) + b*(y + u)^(1/2)", "a + b"),
         ("a*y/(u + 1) + b*y/(1 + u)", "a + b"), ("a*y/(2*u + 2) + b*y/(1 + u)", "a + 2*b"), ("a*sin(u) + b*sin(-u)", "a - b"), ("a*cos(u - y) + b*cos(y - u)", "a + b"),
         ("a*tan(u - y) + b*tan(y - u)", "a - b"), ("a*abs(3*u) + b*abs(-u)", "3*a + b"), ("a*sgn(der(y)) + b*sgn(-2*der(y))", "a - b")]],
+    ("a known part that a parameter takes up", model(["a = {}", "b = {}", "c = {}", "d = {}", "e = {}"], 'ode = ▸"2*e*der(x) = e*u + (1 + c)*y"', 'ode = "a*der(y) = d*u + e*x"',
+                                                     'ode = "b*der(u) = a*x + e*y + 3*d*u"'), [["a, b, c, d, e"]]),
+    ("kinematics ties two terms together", model(["a = {}", "b = {}", "c = {}"], 'ode = "der(x) = y"', 'ode = ▸"der(y) = a*u - b*y - c*der(x)"'), [["b, c cannot be told apart"]]),
+    ("kinematics differentiated once", model(["a = {}", "b = {}", "c = {}"], 'ode = "der(x) = 2*y + 1"', 'ode = ▸"a*der(x,2) = u - b*der(y) - c*x"'), [["a, b cannot be told apart"]]),
+    ("one signal is known by two others", model(["a = {}", "b = {}", "c = {}"], 'ode = "y = u - 3*x"', 'ode = ▸"der(x) = a*u + b*y + c*x"'), [["a, b, c cannot be told apart"]]),
+    ("one signal is known by its square", model(["a = {}", "b = {}"], 'ode = "y = sin(u)*u"', 'ode = ▸"der(x) = a*u*sin(u) + b*y"'), [["a, b cannot be told apart"]]),
     ("function of what cancels", model(["a = {}", "▸b = {}"], 'ode = "der(x) = a*u + b*sin(u - u)"'), [["'b'"]]),
     ("parameter that the transfer equation does not name",
      HEAD + "[parameters]\n▸spare = {}\n[transfer]\nn = 1\nunknowns = [\"a0\", \"b0\"]\n", [["'spare'"]]),
@@ -77,6 +83,13 @@ class Unidentifiable(ModelCase):
                     "a*abs(u) + b*u", "a*sgn(u) + b*sgn(u + 1)", "a*cos(u + y) + b*cos(u - y)", "a/(u + y) + b/(u - y)", "a*log(u*y) + b*log(u/y)"):
             with self.subTest(ode):
                 self.write(model(["a = {}", "b = {}"], f'ode = "der(x) = {ode}"').encode())
+                self.assertEqual(self.run_algest("check", "m.toml")[0], 0)
+
+    def test_equations_without_unknowns_that_tie_nothing(self):
+        for tie, ode in (("der(x) = y", "der(y) = a*u - b*y - c*x"), ("der(x) = y", "a*der(x,2) = u - b*y - c*x"), ("y = u - 3*x", "der(x) = a*u + b*y + c"),
+                         ("der(x) = y + sin(u)", "der(y) = a*der(x) + b*y + c*u"), ("y = u", "der(x) = a*u^2 + b*y + c")):
+            with self.subTest(tie):
+                self.write(model(["a = {}", "b = {}", "c = {}"], f'ode = "{tie}"', f'ode = "{ode}"').encode())
                 self.assertEqual(self.run_algest("check", "m.toml")[0], 0)
 
     def test_bad_input_outweighs_it(self):
