@@ -23,6 +23,7 @@ using generator::DataList;
 
 constexpr double at_the_floor = 1.2;           ///< error over floor that is called the floor
 constexpr std::size_t most_evidence = 40;      ///< rows of the table
+constexpr std::size_t longest_in_a_sentence = 70;   ///< bytes of a term; a longer one gets a line of its own
 constexpr double share_worth_a_line = 0.02;    ///< of the gap, in the verdict
 
 /// Every text goes into the page through here.
@@ -167,6 +168,7 @@ DataList effects_data(const Discovery& d) {
         set(data, "effect", effect.name);
         set(data, "equation", effect.equation);
         set(data, "term", effect.term);
+        data.set("long_term", effect.term.size() > longest_in_a_sentence);
         set(data, "summary", effect.summary);
         data.set("has_summary", !effect.summary.empty());
         set(data, "shows", effect.shows);
