@@ -7,24 +7,15 @@
 
 #include "lab/judge.hpp"
 #include "lab/locate.hpp"
-#include "lab/screen.hpp"
+#include "lab/noise.hpp"
 #include "lab/selection.hpp"
 #include "lab/variant.hpp"
-#include "lab/weak_form.hpp"
 
 namespace algest::lab {
 
 namespace {
 
 constexpr double confirming_tolerance = 1e-8;
-
-/// Noise of the scored outputs.
-std::vector<double> floors(const Variant& nominal) {
-    const std::vector<double> noise = noise_by_signal(nominal);
-    std::vector<double> out;
-    for (const int s : scored_outputs(nominal.model, nominal.bench)) out.push_back(noise[static_cast<std::size_t>(s)]);
-    return out;
-}
 
 std::vector<NamedParameter> parameters(const Variant& v) {
     std::vector<NamedParameter> out;
@@ -88,11 +79,19 @@ std::string text_with_fitted_values(const Variant& nominal, const Variant& best)
     return text;
 }
 
+/// Fits the nominal model and looks for what it lacks, by the yardstick of the bench.
+Selection search(Workbench& bench, Variant& nominal, const std::vector<double>& declared, const std::vector<Effect>& effects, const StepReport& progress) {
+    if (progress) progress("fit the nominal model", 0.02);
+    bench.fit_and_score(nominal, declared, nominal.bench.initial);
+    if (nominal.score.gap() <= at_the_floor) return {nominal, {}, {}};
+    return select_effects(bench, nominal, effects, at_the_floor, progress);
+}
+
 /// The test rows, once: before and after.
-void confirm(const Workbench& bench, const Variant& nominal, const Variant* amended, const std::vector<double>& floor, Discovery& out) {
+void confirm(const Workbench& bench, const Variant& nominal, const Variant* amended, Discovery& out) {
     out.before = bench.run(nominal, confirming_tolerance);
     out.after = amended != nullptr ? bench.run(*amended, confirming_tolerance) : out.before;
-    const auto outputs = scored_outputs(nominal.model, nominal.bench);
+    const std::vector<double> noise = noise_by_signal(nominal.model, nominal.bench);
     const Rows test = bench.parts().test;
     const auto error = [&](const FreeRun& run, std::size_t s) {
         const std::vector<double>& measured = nominal.bench.measured[s];
@@ -104,9 +103,9 @@ void confirm(const Workbench& bench, const Variant& nominal, const Variant* amen
         }
         return std::sqrt(squares / static_cast<double>(test.size())) / size_of(measured);
     };
-    for (std::size_t o = 0; o < outputs.size(); ++o) {
-        const std::size_t s = static_cast<std::size_t>(outputs[o]);
-        out.outputs.push_back({nominal.model.signals[s].name, error(out.before, s), error(out.after, s), floor[o] / size_of(nominal.bench.measured[s])});
+    for (const int output : scored_outputs(nominal.model, nominal.bench)) {
+        const std::size_t s = static_cast<std::size_t>(output);
+        out.outputs.push_back({nominal.model.signals[s].name, error(out.before, s), error(out.after, s), noise[s] / size_of(nominal.bench.measured[s])});
     }
 }
 
@@ -132,34 +131,30 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     const auto declared = parameter_values(nominal->model, {}, diagnostics);
     if (!declared || !excited(bench, *nominal, diagnostics)) return std::nullopt;
 
-    if (progress) progress("fit the nominal model", 0.02);
-    std::vector<std::vector<double>> starts = {*declared};
-    for (const int intervals : weak_intervals(parts->fitted)) starts.push_back(weak_parameters(nominal->model, nominal->bench, parts->fitted, intervals, *declared));
-    bench.fit_and_score(*nominal, starts, nominal->bench.initial);
-    bench.choose_horizon(*nominal);
-    if (bench.horizon() > 0) bench.fit_and_score(*nominal, starts, nominal->bench.initial);
-
-    const std::vector<double> floor = floors(*nominal);
-    Selection selection{*nominal, {}, {}};
-    if (gap_over_floor(nominal->score, floor) > at_the_floor) selection = select_effects(bench, *nominal, effects, floor, at_the_floor, progress);
+    Selection selection = search(bench, *nominal, *declared, effects, progress);
+    if (selection.best.score.gap() > at_the_floor && bench.drifts(selection.best)) {
+        bench.measure_by(Yardstick::rows);
+        selection = search(bench, *nominal, *declared, effects, progress);
+    }
 
     Discovery out{};
-    out.verdict = judge(bench, *nominal, selection, floor);
+    out.verdict = judge(bench, *nominal, selection);
     if (progress) progress("confirm", 0.9);
     bench.refine(*nominal);
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
     out.evidence = std::move(selection.evidence);
-    out.doubts = doubts(bench, *nominal, selection, out.verdict, floor);
+    out.doubts = doubts(bench, *nominal, selection, out.verdict);
     const bool stands = out.verdict == Verdict::named || out.verdict == Verdict::ambiguous;
     const Variant* amended = stands ? &selection.best : nullptr;
     if (stands) for (const Amendment& a : selection.best.amendments) out.effects.push_back(named(selection.best, a, effects));
     if (out.verdict == Verdict::ambiguous) tell_apart(selection, effects, out);
-    confirm(bench, *nominal, amended, floor, out);
+    confirm(bench, *nominal, amended, out);
     out.residuals = residuals(bench, *nominal, amended);
     out.where = locate(bench, *nominal, out.residuals);
     out.parameters_before = parameters(*nominal);
     if (stands) out.parameters_after = parameters(selection.best);
     out.model_text = stands ? text_with_fitted_values(*nominal, selection.best) : model_text;
+    out.first_row = parts->fitted.begin;
     out.train_from_s = recording.t[parts->train.begin];
     out.train_to_s = recording.t[parts->train.end - 1];
     out.test_from_s = recording.t[parts->test.begin];

@@ -37,14 +37,14 @@ public:
         std::vector<double> parameters = start_.parameters;
         std::vector<double> initial = start_.initial;
         spread(x, parameters, initial);
-        const Prediction run = predict(bench_, parameters, initial, start_.rows, start_.horizon);
+        const auto run = prediction(bench_, parameters, initial, start_.rows);
         ++runs;
         const double scale = 1.0 / std::sqrt(static_cast<double>(count_));
         std::size_t k = 0;
         for (std::size_t o = 0; o < outputs_.size(); ++o) {
             const std::size_t s = static_cast<std::size_t>(outputs_[o]);
             for (std::size_t row = 0; row < count_; ++row, ++k) {
-                const double miss = (bench_.measured[s][start_.rows.begin + row * bench_.options.stride] - run.signals[s][row]) / sizes_[o];
+                const double miss = (bench_.measured[s][start_.rows.begin + row * bench_.options.stride] - run[s][row]) / sizes_[o];
                 out[k] = scale * (std::isfinite(miss) ? std::clamp(miss, -error_of_divergence, error_of_divergence) : error_of_divergence);
             }
         }
@@ -94,7 +94,7 @@ Variables choose_variables(const model::Model& model, const Bench& bench, const 
         const double range = model.parameters[p].max ? 1e-3 * exact::nearest(cln::abs(*model.parameters[p].max), plan::Scalar::float64) : 1e-3;
         out.scale.push_back(start.parameters[p] != 0 ? std::abs(start.parameters[p]) : range);
     }
-    for (std::size_t e = 0; e < bench.system.states.size() && start.horizon == 0; ++e) {
+    for (std::size_t e = 0; e < bench.system.states.size(); ++e) {
         if (bench.measured[static_cast<std::size_t>(bench.system.states[e].signal)].empty()) continue;
         out.entries.push_back(e);
         out.scale.push_back(bench.options.scale[e]);
@@ -110,6 +110,16 @@ std::vector<int> scored_outputs(const model::Model& model, const Bench& bench) {
         if (!bench.measured[static_cast<std::size_t>(s)].empty() && model.signals[static_cast<std::size_t>(s)].scored) out.push_back(s);
     }
     return out;
+}
+
+std::vector<std::vector<double>> prediction(const Bench& bench, const std::vector<double>& parameters, const std::vector<double>& initial, Rows rows) {
+    RunOptions options = bench.options;
+    options.first = rows.begin;
+    options.end = rows.end;
+    FreeRun run = free_run(bench.system, parameters, initial, bench.drive, options);
+    const std::size_t count = (rows.size() + options.stride - 1) / options.stride;
+    for (std::vector<double>& signal : run.signals) if (!signal.empty()) signal.resize(count, std::numeric_limits<double>::quiet_NaN());
+    return std::move(run.signals);
 }
 
 double rows_that_count_as_one(const double* r, std::size_t count) {

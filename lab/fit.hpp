@@ -4,9 +4,16 @@
 #include <cstddef>
 #include <vector>
 
-#include "lab/short_runs.hpp"
+#include "lab/simulate.hpp"
 
 namespace algest::lab {
+
+/// Rows [begin, end) of a recording.
+struct Rows {
+    std::size_t begin;
+    std::size_t end;
+    std::size_t size() const { return end - begin; }
+};
 
 /// What a fit starts from and looks at.
 struct FitStart {
@@ -14,7 +21,6 @@ struct FitStart {
     std::vector<bool> fixed;          ///< by parameter; empty: none
     std::vector<double> initial;      ///< by state entry
     Rows rows;                        ///< scored; the run starts at rows.begin
-    std::size_t horizon = 0;          ///< samples of a run (short_runs.hpp); above 0, no initial value is fitted
     int most_iterations = 25;
     double tolerance = 1e-7;          ///< relative change of the cost at which it stops
 };
@@ -31,6 +37,9 @@ struct Fit {
 
 /// The moving signals that a fit compares: measured and scored, in the order of the system.
 std::vector<int> scored_outputs(const model::Model& model, const Bench& bench);
+
+/// The run over the rows from an initial state, every `stride` of the bench, by the model's signals; NaN from where it diverged on.
+std::vector<std::vector<double>> prediction(const Bench& bench, const std::vector<double>& parameters, const std::vector<double>& initial, Rows rows);
 
 /// How many rows of a residual count as one: the sum of its autocorrelation up to its first zero, both sides.
 double rows_that_count_as_one(const double* residual, std::size_t rows);

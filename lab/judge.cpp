@@ -6,15 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/locate.hpp"
+#include "lab/noise.hpp"
+#include "lab/structure.hpp"
 
 namespace algest::lab {
 
 namespace {
 
-constexpr double far_from_the_floor = 1.5;    ///< gap over floor from which on what is left must be noise that nothing foretells
-constexpr double most_of_it = 0.6;            ///< validation error against the nominal model's, for a name far from the floor
-constexpr double nearly_all_of_it = 0.35;     ///< the same, where what is left has a shape
+constexpr double far_from_the_floor = 1.3;    ///< gap over floor from which on what is left must be noise that nothing foretells
+constexpr double most_of_it = 0.6;            ///< error against the nominal model's, for a name far from the floor
+constexpr double near_enough = 0.05;          ///< of the driving side of an equation: a residual that an engineer would be glad of
 constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
 constexpr std::size_t clipped_run = 5;        ///< samples in a row at an extreme that no noise would make alike
 
@@ -40,29 +41,33 @@ bool declares_noise(const model::Signal& s) { return s.noise || s.resolution; }
 
 }  // namespace
 
-Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection, const std::vector<double>& floor) {
+Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection) {
     const Variant& best = selection.best;
-    if (gap_over_floor(nominal.score, floor) <= at_the_floor) return Verdict::none;
+    if (nominal.score.gap() <= at_the_floor) return Verdict::none;
     const auto nothing = [&] { return structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
     if (best.amendments.empty()) return nothing();
     const double left = best.score.nrmse / nominal.score.nrmse;
-    if (gap_over_floor(best.score, floor) > far_from_the_floor) {
-        if (structured(bench, best) && left > nearly_all_of_it) return Verdict::unknown;
+    if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
+        if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
+    } else if (best.score.gap() > far_from_the_floor) {
+        if (structured(bench, best)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
 }
 
-std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict, const std::vector<double>& floor) {
+std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict) {
     std::vector<std::string> out;
     const Variant& best = selection.best;
     const auto outputs = scored_outputs(nominal.model, nominal.bench);
+    const std::vector<double> noise = noise_by_signal(nominal.model, nominal.bench);
     for (std::size_t o = 0; o < outputs.size(); ++o) {
         const std::size_t s = static_cast<std::size_t>(outputs[o]);
         const model::Signal& signal = nominal.model.signals[s];
-        if (!declares_noise(signal)) out.push_back(fmt::format("'{}' declares no noise: {:.3g} {} is taken from its roughness, and what is called a gap hangs on it", signal.name, floor[o], signal.unit));
-        const double over = floor[o] > 0 ? best.score.error[o] / floor[o] : 0;
-        if (verdict == Verdict::named && over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
+        if (!declares_noise(signal)) out.push_back(fmt::format("'{}' declares no noise: {:.3g} {} is taken from its roughness, and what is called a gap hangs on it", signal.name, noise[s], signal.unit));
+        if (bench.yardstick() != Yardstick::free_run || verdict != Verdict::named) continue;
+        const double over = best.score.error[o] / best.score.floor[o];
+        if (over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
     }
     for (std::size_t s = 0; s < nominal.bench.measured.size(); ++s) {
         const std::vector<double>& x = nominal.bench.measured[s];
@@ -70,9 +75,9 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         const double share = clipped(x);
         if (share > clipped_share) out.push_back(fmt::format("'{}' stands at its largest or smallest value for {:.1f} percent of the recording: its sensor may be clipped", nominal.model.signals[s].name, 100 * share));
     }
-    if (bench.horizon() > 0) {
-        out.push_back(fmt::format("a disturbance of this machine does not fade, so a long free run says little: effects were decided on runs of {:.3g} s, each started from the measurement",
-                                  static_cast<double>(bench.horizon()) * nominal.bench.drive.period));
+    if (bench.yardstick() == Yardstick::rows) {
+        out.push_back(fmt::format("this machine does not forget a disturbance, so one long run adds up every small error: effects were decided by the residuals of the equations over short windows, of which {:.3g} percent are left (before: {:.3g} percent of the driving side)",
+                                  100 * best.score.nrmse, 100 * nominal.score.nrmse));
     }
     if (verdict != Verdict::named && verdict != Verdict::ambiguous) return out;
     for (const Amendment& a : best.amendments) {
@@ -93,7 +98,7 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
 bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics) {
     bool out = true;
     bool moves = false;
-    const std::vector<double> noise = noise_by_signal(nominal);
+    const std::vector<double> noise = noise_by_signal(nominal.model, nominal.bench);
     for (const int s : scored_outputs(nominal.model, nominal.bench)) {
         const std::vector<double>& x = nominal.bench.measured[static_cast<std::size_t>(s)];
         const model::Signal& signal = nominal.model.signals[static_cast<std::size_t>(s)];

@@ -12,11 +12,10 @@ namespace algest::lab {
 
 constexpr double at_the_floor = 1.15;   ///< gap over floor that counts as none
 
-/// floor: by scored output, in its unit.
-Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection, const std::vector<double>& floor);
+Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection);
 
 /// A sentence for each thing that a reader should not take for granted.
-std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict, const std::vector<double>& floor);
+std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict);
 
 /// Errors in `diagnostics` where a recording cannot show a gap: an output that never moves, or that stays within its noise.
 bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics);

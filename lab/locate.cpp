@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "generator/dimension.hpp"
+#include "lab/noise.hpp"
 #include "lab/weak_form.hpp"
 
 namespace algest::lab {
@@ -12,7 +13,6 @@ namespace algest::lab {
 namespace {
 
 constexpr int intervals_of_a_residual = 32;
-constexpr double share_of_structure = 0.15;   ///< of a residual that the state foretells: noise does not reach it
 constexpr double least_explained = 0.1;       ///< of a residual by one signal, to be called its region
 
 /// How a residual may hang on one signal.
@@ -72,23 +72,6 @@ std::vector<double> own_parameters(const Workbench& bench, const Variant& v, std
 
 }  // namespace
 
-std::vector<double> noise_by_signal(const Variant& v) {
-    std::vector<double> out;
-    for (std::size_t s = 0; s < v.model.signals.size(); ++s) {
-        const model::Signal& signal = v.model.signals[s];
-        if (v.bench.measured[s].empty()) {
-            out.push_back(0);
-            continue;
-        }
-        const double noise = signal.noise ? exact::nearest(*signal.noise, plan::Scalar::float64) : 0.0;
-        const double step = signal.resolution ? exact::nearest(*signal.resolution, plan::Scalar::float64) : 0.0;
-        const bool replayed = std::find(v.bench.system.driven.begin(), v.bench.system.driven.end(), static_cast<int>(s)) != v.bench.system.driven.end();
-        const bool declared = signal.noise || signal.resolution;
-        out.push_back(declared ? std::sqrt(noise * noise + step * step / 12.0) : replayed ? 0.0 : roughness(v.bench.measured[s]));
-    }
-    return out;
-}
-
 std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& nominal, const Variant* amended) {
     const Rows all = {0, bench.recording().samples()};
     std::vector<EquationResidual> out;
@@ -100,7 +83,7 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
         for (const std::size_t row : form->centre) r.t.push_back(bench.recording().t[row]);
         const Eigen::VectorXd before = weak_residual(*form, parameters);
         r.before = as_vector(before);
-        r.noise = weak_noise(nominal.model, nominal.bench, e, bench.parts().train, intervals_of_a_residual, parameters, noise_by_signal(nominal));
+        r.noise = weak_noise(nominal.model, nominal.bench, e, bench.parts().train, intervals_of_a_residual, parameters, noise_by_signal(nominal.model, nominal.bench));
         const Region region = region_of(nominal, form->centre, before);
         if (region.signal >= 0) {
             const std::size_t s = static_cast<std::size_t>(region.signal);
@@ -157,57 +140,6 @@ std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const 
     }
     for (Where& w : out) w.share = total > 0 ? w.share / total : 0;
     return out;
-}
-
-namespace {
-
-/// Share of a residual's power that features of the state explain on windows they were not fitted to.
-double foretold(const Variant& v, const WeakForm& form, const Eigen::VectorXd& r) {
-    std::vector<std::vector<double>> features;
-    for (const std::vector<double>& m : v.bench.measured) {
-        if (m.empty()) continue;
-        const double size = std::max(size_of(m), 1e-300);
-        std::vector<double> linear, cubic, sign, square;
-        for (const std::size_t row : form.centre) {
-            const double x = m[row] / size;
-            linear.push_back(x);
-            square.push_back(x * x);
-            cubic.push_back(x * x * x);
-            sign.push_back(x > 0 ? 1.0 : -1.0);
-        }
-        for (auto* f : {&linear, &square, &cubic, &sign}) features.push_back(*f);
-        for (const std::size_t lag : {1, 2, 4}) {   // what remembers, such as hysteresis, shows against the past
-            std::vector<double> past(linear.size(), 0.0), past_sign(linear.size(), 0.0);
-            for (std::size_t w = lag; w < linear.size(); ++w) {
-                past[w] = linear[w - lag];
-                past_sign[w] = sign[w - lag];
-            }
-            features.push_back(past);
-            features.push_back(past_sign);
-        }
-    }
-    const Eigen::Index windows = r.size();
-    Eigen::MatrixXd X(windows, static_cast<Eigen::Index>(features.size()) + 1);
-    X.col(0).setOnes();
-    for (std::size_t f = 0; f < features.size(); ++f) for (Eigen::Index w = 0; w < windows; ++w) X(w, static_cast<Eigen::Index>(f) + 1) = features[f][static_cast<std::size_t>(w)];
-    const Eigen::Index half = windows / 2;
-    if (half < 2 * X.cols()) return 0;
-    const Eigen::VectorXd first = X.topRows(half).colPivHouseholderQr().solve(r.head(half));
-    const Eigen::VectorXd second = X.bottomRows(windows - half).colPivHouseholderQr().solve(r.tail(windows - half));
-    const double missed = (r.tail(windows - half) - X.bottomRows(windows - half) * first).squaredNorm() + (r.head(half) - X.topRows(half) * second).squaredNorm();
-    return 1 - missed / r.squaredNorm();
-}
-
-}  // namespace
-
-bool structured(const Workbench& bench, const Variant& v) {
-    for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
-        const auto form = weak_form(v.model, v.bench, e, bench.parts().train, intervals_of_a_residual);
-        if (!form) continue;
-        const WeakFit f = weak_fit(*form, v.fit.parameters);
-        if (foretold(v, *form, weak_residual(*form, f.parameters)) > share_of_structure) return true;
-    }
-    return false;
 }
 
 }  // namespace algest::lab

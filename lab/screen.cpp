@@ -111,12 +111,6 @@ private:
 
 }  // namespace
 
-std::vector<int> weak_intervals(const Rows& rows) {
-    std::vector<int> out;
-    for (const int intervals : {16, 64, 256}) if (out.empty() || rows.size() > 20 * static_cast<std::size_t>(intervals)) out.push_back(intervals);
-    return out;
-}
-
 std::vector<Candidate> screen(const Workbench& bench, const Variant& base, const std::vector<Effect>& effects, std::size_t most, std::size_t most_of_one) {
     Screen screen(bench, base);
     std::vector<Candidate> all;

@@ -16,9 +16,6 @@ struct Candidate {
     std::vector<double> start;    ///< parameters of the amended model, by the weak form of the equation that the effect enters
 };
 
-/// Window lengths, in intervals, that weak forms are tried with: the noise wants long ones, fast dynamics short ones.
-std::vector<int> weak_intervals(const Rows& rows);
-
 /// The most likely candidates beside what `base` already holds, best first, at most `most` and `most_of_one` of one effect.
 /// Cost: one weak form a candidate, window length and scanned value.
 std::vector<Candidate> screen(const Workbench& bench, const Variant& base, const std::vector<Effect>& effects, std::size_t most, std::size_t most_of_one);

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "lab/screen.hpp"
-#include "lab/weak_form.hpp"
 
 namespace algest::lab {
 
@@ -66,9 +64,7 @@ std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, con
         const int old = base.model.parameter_index(p.name);
         carried.push_back(old >= 0 ? base.fit.parameters[static_cast<std::size_t>(old)] : exact::nearest(*p.initial, plan::Scalar::float64));
     }
-    std::vector<std::vector<double>> starts = {carried};
-    for (const int intervals : weak_intervals(bench.parts().fitted)) starts.push_back(weak_parameters(v->model, v->bench, bench.parts().fitted, intervals, carried));
-    bench.fit_and_score(*v, starts, base.fit.initial);
+    bench.fit_and_score(*v, carried, base.fit.initial);
     return v;
 }
 
@@ -107,9 +103,7 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
             if (!v) continue;
             std::vector<double> carried;
             for (const model::Parameter& p : v->model.parameters) carried.push_back(best.fit.parameters[static_cast<std::size_t>(best.model.parameter_index(p.name))]);
-            std::vector<std::vector<double>> starts = {carried};
-            for (const int intervals : weak_intervals(bench.parts().fitted)) starts.push_back(weak_parameters(v->model, v->bench, bench.parts().fitted, intervals, carried));
-            bench.fit_and_score(*v, starts, best.fit.initial);
+            bench.fit_and_score(*v, carried, best.fit.initial);
             if (worth_it(best.score, v->score)) continue;
             best = std::move(*v);
             changed = true;
@@ -120,22 +114,13 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
 
 }  // namespace
 
-double gap_over_floor(const Score& score, const std::vector<double>& floor) {
-    double squares = 0;
-    for (std::size_t o = 0; o < floor.size(); ++o) {
-        if (!(floor[o] > 0)) return std::numeric_limits<double>::infinity();
-        squares += std::pow(score.error[o] / floor[o], 2) / static_cast<double>(floor.size());
-    }
-    return std::sqrt(squares);
-}
-
 bool worth_it(const Score& a, const Score& b) {
     double ratio = 0;   // geometric mean over outputs: each counts alike, whatever its floor
     for (std::size_t o = 0; o < a.error.size(); ++o) ratio += std::log(std::max(a.error[o], 1e-300) / std::max(b.error[o], 1e-300)) / static_cast<double>(a.error.size());
     return std::exp(ratio) < needed_gain && significance(a, b) > needed_significance;
 }
 
-Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const std::vector<double>& floor, double enough, const StepReport& progress) {
+Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, double enough, const StepReport& progress) {
     Selection out{nominal, {}, {}};
     std::vector<Variant> beside = {nominal};
     std::set<Identity> tried;
@@ -180,7 +165,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         }
         out.best = top;
         beside = std::move(next);
-        if (gap_over_floor(out.best.score, floor) <= enough) break;
+        if (out.best.score.gap() <= enough) break;
     }
     const std::size_t before = out.best.amendments.size();
     out.best = pruned(bench, out.best, nominal);

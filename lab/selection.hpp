@@ -20,13 +20,10 @@ struct Selection {
     std::vector<Evidence> evidence;
 };
 
-/// The error of a score over that of the sensors: rms over outputs. floor: by output, in its unit.
-double gap_over_floor(const Score& score, const std::vector<double>& floor);
-
 /// True when a is so much nearer than b that adding something to b is worth it.
 bool worth_it(const Score& a, const Score& b);
 
 /// Searches until the gap is within `enough` times the floor, nothing is worth adding, or `most` effects stand.
-Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const std::vector<double>& floor, double enough, const StepReport& progress);
+Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, double enough, const StepReport& progress);
 
 }  // namespace algest::lab

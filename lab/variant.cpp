@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "lab/noise.hpp"
 #include "lab/weak_form.hpp"
 
 namespace algest::lab {
@@ -19,15 +21,46 @@ constexpr int search_iterations = 12;
 constexpr std::size_t rows_of_an_undriven_run = 4000;
 constexpr double error_of_divergence = 1e3;     ///< sizes
 constexpr double lasting = 0.3;                 ///< share of a disturbed start that is still there a third of the way on: it does not fade
-constexpr std::size_t horizons = 20;            ///< short runs in the training rows
-constexpr std::size_t shortest_horizon = 50;    ///< rows
+constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations
 
 void names_in(const formula::Formula& f, std::set<std::string>& out) {
     if (f->kind == formula::Kind::name) out.insert(f->name);
     for (const formula::Formula& a : f->arguments) names_in(a, out);
 }
 
+int row_intervals(const Rows& rows) {
+    const std::vector<int> all = weak_intervals(rows);
+    return std::min(all.back(), intervals_of_a_row);
+}
+
+/// Takes the errors of one output or equation into a score. nrmse holds the sum of squares until `finish`.
+void add(Score& score, const std::vector<double>& miss, double size, double floor) {
+    std::vector<double> blocks(score_blocks, 0.0);
+    double squares = 0;
+    for (std::size_t k = 0; k < miss.size(); ++k) {
+        blocks[k * score_blocks / miss.size()] += miss[k] * miss[k] * score_blocks / static_cast<double>(miss.size());
+        squares += miss[k] * miss[k];
+    }
+    const double error = std::sqrt(squares / static_cast<double>(miss.size()));
+    score.error.push_back(error);
+    score.floor.push_back(floor);
+    score.blocks.push_back(std::move(blocks));
+    score.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
+    score.nrmse += std::pow(error / std::max(size, 1e-300), 2);
+}
+
+void finish(Score& score) { score.nrmse = std::sqrt(score.nrmse / static_cast<double>(std::max<std::size_t>(score.error.size(), 1))); }
+
 }  // namespace
+
+double Score::gap() const {
+    double squares = 0;
+    for (std::size_t o = 0; o < error.size(); ++o) {
+        if (!(floor[o] > 0)) return std::numeric_limits<double>::infinity();
+        squares += std::pow(error[o] / floor[o], 2) / static_cast<double>(error.size());
+    }
+    return std::sqrt(squares);
+}
 
 std::optional<Parts> parts_of(const Recording& recording, const std::optional<std::pair<double, double>>& train, const std::optional<std::pair<double, double>>& test, Diagnostics& diagnostics) {
     const std::size_t samples = recording.samples();
@@ -94,52 +127,73 @@ void Workbench::drop_idle_kinematics(model::Model& model) const {
     model.equations.erase(std::remove_if(model.equations.begin(), model.equations.end(), [&](const model::Equation& e) { return idle_.count(e.name) > 0; }), model.equations.end());
 }
 
-void Workbench::fit_and_score(Variant& v, const std::vector<std::vector<double>>& starts, const std::vector<double>& initial) const {
-    FitStart start{starts.at(0), {}, initial, parts_.fitted, horizon_, search_iterations, search_accuracy};
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::vector<double>& candidate : starts) {
-        FitStart at = start;
-        at.parameters = candidate;
+void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, const std::vector<double>& initial) const {
+    if (yardstick_ == Yardstick::rows) {
+        const WeakEstimate estimate = weak_estimate(v.model, v.bench, parts_.fitted, row_intervals(parts_.validation), start);
+        v.fit = {estimate.parameters, estimate.sd, initial, 0, true, 0};
+        v.score = rows_score(v);
+        return;
+    }
+    FitStart from{start, {}, initial, parts_.fitted, search_iterations, search_accuracy};
+    double least = output_error(v.model, v.bench, from);
+    for (const int intervals : weak_intervals(parts_.fitted)) {
+        FitStart at = from;
+        at.parameters = weak_estimate(v.model, v.bench, parts_.fitted, intervals, start).parameters;
         const double error = output_error(v.model, v.bench, at);
         if (error < least) {
             least = error;
-            start.parameters = candidate;
+            from.parameters = at.parameters;
         }
     }
-    v.fit = fit(v.model, v.bench, start);
-    v.score = score(v);
+    v.fit = fit(v.model, v.bench, from);
+    v.score = free_run_score(v);
 }
 
-void Workbench::refine(Variant& v) const { v.fit = fit(v.model, v.bench, {v.fit.parameters, {}, v.fit.initial, parts_.train, horizon_}); }
+void Workbench::refine(Variant& v) const {
+    FitStart from{v.fit.parameters, {}, v.fit.initial, parts_.train};
+    if (yardstick_ == Yardstick::rows) {   // the run gets the initial values that suit it, the parameters stay those of the rows
+        const WeakEstimate estimate = weak_estimate(v.model, v.bench, parts_.train, row_intervals(parts_.validation), v.fit.parameters);
+        from.parameters = estimate.parameters;
+        from.fixed.assign(estimate.parameters.size(), true);
+        v.fit = fit(v.model, v.bench, from);
+        v.fit.sd = estimate.sd;
+        return;
+    }
+    v.fit = fit(v.model, v.bench, from);
+}
 
-Score Workbench::score(const Variant& v) const {
-    const Rows rows = horizon_ > 0 ? parts_.validation : parts_.train;
-    const Prediction run = predict(v.bench, v.fit.parameters, v.fit.initial, rows, horizon_);
+Score Workbench::free_run_score(const Variant& v) const {
+    const auto run = prediction(v.bench, v.fit.parameters, v.fit.initial, parts_.train);
     const std::size_t stride = v.bench.options.stride;
-    const std::size_t skip = (parts_.validation.begin - rows.begin + stride - 1) / stride;
+    const std::size_t skip = (parts_.validation.begin - parts_.train.begin + stride - 1) / stride;
+    const std::vector<double> noise = noise_by_signal(v.model, v.bench);
     Score out;
-    double squares_of_nrmse = 0;
-    const auto outputs = scored_outputs(v.model, v.bench);
-    for (const int s : outputs) {
+    for (const int s : scored_outputs(v.model, v.bench)) {
         const std::vector<double>& measured = v.bench.measured[static_cast<std::size_t>(s)];
+        const std::vector<double>& simulated = run[static_cast<std::size_t>(s)];
         const double size = size_of(measured);
         std::vector<double> miss;
-        for (std::size_t k = skip; k < run.rows; ++k) {
-            const double e = measured[rows.begin + k * stride] - run.signals[static_cast<std::size_t>(s)][k];
+        for (std::size_t k = skip; k < simulated.size(); ++k) {
+            const double e = measured[parts_.train.begin + k * stride] - simulated[k];
             miss.push_back(std::isfinite(e) ? std::clamp(e, -error_of_divergence * size, error_of_divergence * size) : error_of_divergence * size);
         }
-        std::vector<double> blocks(score_blocks, 0.0);
-        double squares = 0;
-        for (std::size_t k = 0; k < miss.size(); ++k) {
-            blocks[k * score_blocks / miss.size()] += miss[k] * miss[k] * score_blocks / static_cast<double>(miss.size());
-            squares += miss[k] * miss[k];
-        }
-        out.error.push_back(std::sqrt(squares / static_cast<double>(miss.size())));
-        out.blocks.push_back(blocks);
-        out.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
-        squares_of_nrmse += std::pow(out.error.back() / size, 2);
+        add(out, miss, size, noise[static_cast<std::size_t>(s)]);
     }
-    out.nrmse = std::sqrt(squares_of_nrmse / static_cast<double>(std::max<std::size_t>(outputs.size(), 1)));
+    finish(out);
+    return out;
+}
+
+Score Workbench::rows_score(const Variant& v) const {
+    const int intervals = row_intervals(parts_.validation);
+    const std::vector<double> noise = noise_by_signal(v.model, v.bench);
+    Score out;
+    for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
+        const auto form = weak_form(v.model, v.bench, e, parts_.validation, intervals);
+        if (!form || std::find(form->used.begin(), form->used.end(), true) == form->used.end()) continue;
+        const Eigen::VectorXd r = weak_residual(*form, v.fit.parameters);
+        add(out, {r.data(), r.data() + r.size()}, driving_size(*form, v.fit.parameters), weak_noise(v.model, v.bench, e, parts_.validation, intervals, v.fit.parameters, noise));
+    }
+    finish(out);
     return out;
 }
 
@@ -151,25 +205,25 @@ FreeRun Workbench::run(const Variant& v, double tolerance) const {
     return free_run(v.bench.system, v.fit.parameters, v.fit.initial, v.bench.drive, options);
 }
 
-void Workbench::choose_horizon(const Variant& nominal) {
+bool Workbench::drifts(const Variant& fitted) const {
     const Rows rows = {parts_.train.begin, parts_.train.begin + parts_.train.size() / 3};
     constexpr double push = 0.01;
-    std::vector<double> pushed = nominal.fit.initial;
-    for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] += push * nominal.bench.options.scale[i];
-    const Prediction here = predict(nominal.bench, nominal.fit.parameters, nominal.fit.initial, rows, 0);
-    const Prediction there = predict(nominal.bench, nominal.fit.parameters, pushed, rows, 0);
-    double largest = 0;
-    for (const int s : scored_outputs(nominal.model, nominal.bench)) {
-        const std::size_t k = static_cast<std::size_t>(s);
-        const std::size_t last = here.rows - here.rows / 5;
+    std::vector<double> pushed = fitted.fit.initial;
+    for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] += push * fitted.bench.options.scale[i];
+    const auto here = prediction(fitted.bench, fitted.fit.parameters, fitted.fit.initial, rows);
+    const auto there = prediction(fitted.bench, fitted.fit.parameters, pushed, rows);
+    const std::vector<StateEntry>& states = fitted.bench.system.states;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const std::size_t s = static_cast<std::size_t>(states[i].signal);
+        if (states[i].order > 0 || fitted.bench.measured[s].empty() || !fitted.model.signals[s].scored) continue;
+        const std::size_t count = here[s].size();
+        const std::size_t from = count - count / 5;
         double squares = 0;
-        for (std::size_t row = last; row < here.rows; ++row) squares += std::pow(there.signals[k][row] - here.signals[k][row], 2);
-        const double left = std::sqrt(squares / static_cast<double>(here.rows - last)) / (push * nominal.bench.options.scale[static_cast<std::size_t>(std::find_if(nominal.bench.system.states.begin(), nominal.bench.system.states.end(), [&](const StateEntry& e) { return e.signal == s; }) - nominal.bench.system.states.begin())]);
-        largest = std::isfinite(left) ? std::max(largest, left) : std::numeric_limits<double>::infinity();
+        for (std::size_t row = from; row < count; ++row) squares += std::pow(there[s][row] - here[s][row], 2);
+        const double left = std::sqrt(squares / static_cast<double>(count - from)) / (push * fitted.bench.options.scale[i]);
+        if (!(left < lasting)) return true;   // NaN: it diverged
     }
-    if (!(largest > lasting)) return;
-    const std::size_t stride = nominal.bench.options.stride;
-    horizon_ = std::max(parts_.train.size() / horizons, shortest_horizon) / stride * stride;
+    return false;
 }
 
 double log_gain(const Score& a, const Score& b) {

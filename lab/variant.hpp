@@ -24,12 +24,22 @@ struct Parts {
 /// train, test: in seconds, or the default of 70 and 30 percent.
 std::optional<Parts> parts_of(const Recording& recording, const std::optional<std::pair<double, double>>& train, const std::optional<std::pair<double, double>>& test, Diagnostics& diagnostics);
 
+/// What decides which of two variants is nearer to the recording.
+enum class Yardstick {
+    free_run,   ///< error of each scored output in one long run
+    rows        ///< residual of each equation on windows that annihilate their initial conditions: where a long run drifts
+};
+
 /// How far a variant is from the validation rows.
 struct Score {
-    std::vector<double> error;                  ///< by output: rms over the rows, in the output's unit
-    std::vector<std::vector<double>> blocks;    ///< by output: mean square error of each of `score_blocks` blocks
-    std::vector<double> independent;            ///< by output: rows that count, autocorrelated ones as less than one
-    double nrmse = 0;                           ///< rms over outputs of error / size
+    std::vector<double> error;                  ///< by output (free_run) or equation (rows): rms, in its unit
+    std::vector<double> floor;                  ///< the part of it that the sensors' noise makes
+    std::vector<std::vector<double>> blocks;    ///< mean square error of each of `score_blocks` blocks
+    std::vector<double> independent;            ///< samples that count, autocorrelated ones as less than one
+    double nrmse = 0;                           ///< rms of error / size (free_run), of residual / driving side (rows)
+
+    /// Error over floor, rms over outputs or equations; infinite where a floor is zero.
+    double gap() const;
 };
 
 constexpr std::size_t score_blocks = 16;
@@ -54,8 +64,8 @@ public:
     /// The first call, with the nominal text, decides which kinematic equations are idle.
     std::optional<Variant> prepare(const std::string& text, std::vector<Amendment> amendments, Diagnostics& diagnostics);
 
-    /// Fits in free run from the best of the starts and scores on the validation rows.
-    void fit_and_score(Variant& v, const std::vector<std::vector<double>>& starts, const std::vector<double>& initial) const;
+    /// Fits to the first training rows, from the better of `start` and what the weak form makes of it, and scores on the validation rows.
+    void fit_and_score(Variant& v, const std::vector<double>& start, const std::vector<double>& initial) const;
 
     /// Fits once more, to all training rows and to the end: what is reported, once nothing is left to decide. The score stays.
     void refine(Variant& v) const;
@@ -63,11 +73,11 @@ public:
     /// Free run of a fitted variant over all rows from the first fitted one on.
     FreeRun run(const Variant& v, double tolerance) const;
 
-    /// Decides, once the nominal model is fitted, whether a long run says anything (docs/discover.md, "drift").
-    void choose_horizon(const Variant& nominal);
+    /// True when a disturbed start is still there a third of the training rows later: a long run adds up every small error.
+    bool drifts(const Variant& fitted) const;
 
-    /// Samples after which a run starts anew from what was measured; 0: never.
-    std::size_t horizon() const { return horizon_; }
+    Yardstick yardstick() const { return yardstick_; }
+    void measure_by(Yardstick yardstick) { yardstick_ = yardstick; }
 
     const Parts& parts() const { return parts_; }
     const Recording& recording() const { return recording_; }
@@ -79,13 +89,14 @@ public:
 private:
     void find_idle_kinematics(const model::Model& model);
     void drop_idle_kinematics(model::Model& model) const;
-    Score score(const Variant& v) const;
+    Score free_run_score(const Variant& v) const;
+    Score rows_score(const Variant& v) const;
 
     std::string path_;
     const Recording& recording_;
     Parts parts_;
     std::set<std::string> idle_;
-    std::size_t horizon_ = 0;
+    Yardstick yardstick_ = Yardstick::free_run;
 };
 
 /// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):

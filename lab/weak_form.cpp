@@ -107,11 +107,18 @@ std::optional<equation::OperatorForm> measured_form(const model::Model& model, c
 
 }  // namespace
 
+std::vector<int> weak_intervals(const Rows& rows) {
+    std::vector<int> out;
+    for (const int intervals : {16, 64, 256}) if (out.empty() || rows.size() > 20 * static_cast<std::size_t>(intervals)) out.push_back(intervals);
+    return out;
+}
+
 std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
     const auto form = measured_form(model, bench, equation, rows, intervals);
     if (!form) return std::nullopt;
     WeakForm out;
     out.driven = false;
+    out.first_leading = form->leading;
     out.used.assign(model.parameters.size(), false);
     out.leading.assign(model.parameters.size(), false);
     const auto series = products(model, bench, *form, rows);
@@ -159,11 +166,12 @@ double weak_noise(const model::Model& model, const Bench& bench, std::size_t equ
     return std::sqrt(variance / static_cast<double>(windows.count));
 }
 
-std::vector<double> weak_parameters(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start) {
-    std::vector<double> out = start;
+WeakEstimate weak_estimate(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start) {
+    WeakEstimate out{start, std::vector<double>(start.size(), std::numeric_limits<double>::infinity())};
     std::vector<WeakForm> forms;
     std::vector<double> scale;
     std::vector<bool> open(start.size(), false);
+    Eigen::Index windows = 0;
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
         auto form = weak_form(model, bench, e, rows, intervals);
         if (!form) continue;
@@ -171,31 +179,50 @@ std::vector<double> weak_parameters(const model::Model& model, const Bench& benc
         if (own.unknowns == 0 || !(own.residual > 0)) continue;
         for (std::size_t p = 0; p < open.size(); ++p) open[p] = open[p] || (form->used[p] && (form->driven || !form->leading[p]));
         scale.push_back(std::sqrt(static_cast<double>(own.windows) / own.residual));   // each equation in units of its own noise
+        windows += form->columns.rows();
         forms.push_back(std::move(*form));
     }
     std::vector<std::size_t> free;
     for (std::size_t p = 0; p < open.size(); ++p) if (open[p]) free.push_back(p);
     if (free.empty()) return out;
-    Eigen::Index windows = 0;
-    for (const WeakForm& form : forms) windows += form.columns.rows();
-    for (int step = 0; step < 3; ++step) {
-        Eigen::MatrixXd slopes(windows, static_cast<Eigen::Index>(free.size()));
-        Eigen::VectorXd residual(windows);
+    Eigen::MatrixXd slopes(windows, static_cast<Eigen::Index>(free.size()));
+    Eigen::VectorXd residual(windows);
+    const auto linearise = [&] {
         Eigen::Index at = 0;
         for (std::size_t f = 0; f < forms.size(); ++f) {
             const Eigen::Index own = forms[f].columns.rows();
-            residual.segment(at, own) = scale[f] * weak_residual(forms[f], out);
-            for (std::size_t k = 0; k < free.size(); ++k) slopes.block(at, static_cast<Eigen::Index>(k), own, 1) = scale[f] * weak_slope(forms[f], out, free[k]);
+            residual.segment(at, own) = scale[f] * weak_residual(forms[f], out.parameters);
+            for (std::size_t k = 0; k < free.size(); ++k) slopes.block(at, static_cast<Eigen::Index>(k), own, 1) = scale[f] * weak_slope(forms[f], out.parameters, free[k]);
             at += own;
         }
-        move_to_least_squares(slopes, residual, free, out);
+    };
+    for (int step = 0; step < 3; ++step) {   // exact after one where the equations are linear in their parameters
+        linearise();
+        move_to_least_squares(slopes, residual, free, out.parameters);
     }
-    for (std::size_t p = 0; p < out.size(); ++p) {
-        if (!std::isfinite(out[p])) return start;
-        if (model.parameters[p].min) out[p] = std::max(out[p], exact::nearest(*model.parameters[p].min, plan::Scalar::float64));
-        if (model.parameters[p].max) out[p] = std::min(out[p], exact::nearest(*model.parameters[p].max, plan::Scalar::float64));
+    for (std::size_t p = 0; p < start.size(); ++p) {
+        if (!std::isfinite(out.parameters[p])) return {start, out.sd};
+        if (model.parameters[p].min) out.parameters[p] = std::max(out.parameters[p], exact::nearest(*model.parameters[p].min, plan::Scalar::float64));
+        if (model.parameters[p].max) out.parameters[p] = std::min(out.parameters[p], exact::nearest(*model.parameters[p].max, plan::Scalar::float64));
+    }
+    linearise();
+    const double variance = residual.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(windows - slopes.cols(), 1)) * rows_that_count_as_one(residual.data(), static_cast<std::size_t>(windows));
+    const Eigen::VectorXd size = slopes.colwise().norm();
+    for (Eigen::Index k = 0; k < size.size(); ++k) if (size[k] > 0) slopes.col(k) /= size[k];
+    const Eigen::MatrixXd covariance = (slopes.transpose() * slopes).completeOrthogonalDecomposition().pseudoInverse();
+    for (std::size_t k = 0; k < free.size(); ++k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        if (size[i] > 0) out.sd[free[k]] = std::sqrt(variance * covariance(i, i)) / size[i];
     }
     return out;
+}
+
+double driving_size(const WeakForm& form, const std::vector<double>& parameters) {
+    Eigen::VectorXd driving = Eigen::VectorXd::Zero(form.columns.rows());
+    for (std::size_t k = 0; k < form.coefficients.size(); ++k) {
+        if (form.driven ? is_constant(form.coefficients[k]) : static_cast<int>(k) == form.first_leading) driving += value_of(form.coefficients[k], parameters) * form.columns.col(static_cast<Eigen::Index>(k));
+    }
+    return driving.norm() / std::sqrt(static_cast<double>(driving.size()));
 }
 
 Eigen::VectorXd weak_residual(const WeakForm& form, const std::vector<double>& parameters) {

@@ -16,9 +16,13 @@ struct WeakForm {
     std::vector<Polynomial> coefficients;     ///< by term, in the model's parameters
     std::vector<bool> used;                   ///< by parameter of the model: it stands in this equation
     std::vector<bool> leading;                ///< by parameter: it stands in the leading coefficient
+    int first_leading;                        ///< term of the leading derivative; -1: none
     bool driven;                              ///< some term has a known coefficient
     std::vector<std::size_t> centre;          ///< by window: the sample in its middle
 };
+
+/// Window lengths, in intervals, that are worth trying on so many rows: noise wants long windows, fast dynamics short ones.
+std::vector<int> weak_intervals(const Rows& rows);
 
 /// Nullopt where a signal of the equation is not measured, or the rows are fewer than two windows. intervals: of a window.
 std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals);
@@ -33,9 +37,19 @@ struct WeakFit {
 };
 WeakFit weak_fit(const WeakForm& form, const std::vector<double>& start);
 
+/// Parameters with standard deviations; infinite for those that no row sees.
+struct WeakEstimate {
+    std::vector<double> parameters;
+    std::vector<double> sd;
+};
+
 /// The same over all equations at once, each in units of its own residual: what free runs start from. Within the model's bounds;
-/// parameters that no measured equation sees stay at `start`.
-std::vector<double> weak_parameters(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start);
+/// parameters that no measured equation sees stay at `start`. Standard deviations count autocorrelated windows as less than one.
+WeakEstimate weak_estimate(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start);
+
+/// Rms over the windows of the driving side: the terms with known coefficients, else the leading one. Of a residual, the measure that
+/// R^2 = 1 - (rms residual / rms driving side)^2 is taken by.
+double driving_size(const WeakForm& form, const std::vector<double>& parameters);
 
 /// Standard deviation of a window's residual that white sensor noise makes, rms over the windows; 0 where the equation is not measured.
 /// noise: by signal, in its unit. A switch in a regressor counts as if it did not move.

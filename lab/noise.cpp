@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace algest::lab {
+
+double roughness(const std::vector<double>& x) {
+    if (x.size() < 4) return 0;
+    double squares = 0;
+    for (std::size_t k = 3; k < x.size(); ++k) {
+        const double d = x[k] - 3 * x[k - 1] + 3 * x[k - 2] - x[k - 3];
+        squares += d * d;
+    }
+    return std::sqrt(squares / static_cast<double>(x.size() - 3) / 20.0);   // 1 + 9 + 9 + 1
+}
+
+std::vector<double> noise_by_signal(const model::Model& model, const Bench& bench) {
+    std::vector<double> out;
+    for (std::size_t s = 0; s < model.signals.size(); ++s) {
+        const model::Signal& signal = model.signals[s];
+        const double noise = signal.noise ? exact::nearest(*signal.noise, plan::Scalar::float64) : 0.0;
+        const double step = signal.resolution ? exact::nearest(*signal.resolution, plan::Scalar::float64) : 0.0;
+        const bool moves = std::find(bench.system.moving.begin(), bench.system.moving.end(), static_cast<int>(s)) != bench.system.moving.end();
+        if (bench.measured[s].empty()) out.push_back(0);
+        else if (signal.noise || signal.resolution) out.push_back(std::sqrt(noise * noise + step * step / 12.0));   // rounding: uniform over a step
+        else out.push_back(moves ? roughness(bench.measured[s]) : 0);
+    }
+    return out;
+}
+
+}  // namespace algest::lab

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The noise of the sensors of a recording: the yardstick of every gap.
+#pragma once
+#include <vector>
+
+#include "lab/simulate.hpp"
+
+namespace algest::lab {
+
+/// Standard deviation by signal, in its unit: declared noise and resolution; else, of signals that move, their roughness; else 0.
+std::vector<double> noise_by_signal(const model::Model& model, const Bench& bench);
+
+/// Of white noise that would make a signal as rough as it is: rms of its third differences over sqrt(20).
+double roughness(const std::vector<double>& x);
+
+}  // namespace algest::lab
