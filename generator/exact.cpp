@@ -149,7 +149,7 @@ std::string decimal(const Rational& value) {
     }
     if (rest != 1 || places > 20) return text(value);
     if (places == 0) return text(value);
-    const Rational shifted = cln::abs(value) * cln::expt_pos(Integer(10), places);
+    const Rational shifted = cln::abs(value) * cln::expt_pos(Integer(10), static_cast<unsigned>(places));
     std::string digits = text(shifted);
     if (digits.size() <= static_cast<std::size_t>(places)) digits.insert(0, static_cast<std::size_t>(places) + 1 - digits.size(), '0');
     digits.insert(digits.size() - static_cast<std::size_t>(places), ".");

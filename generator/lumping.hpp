@@ -39,8 +39,9 @@ struct Lumping {
 };
 
 /// Chooses per group of equations that share parameters: as written where that needs fewer unknowns than after division by the
-/// leading coefficient, divided otherwise (000 divides). Complains where more unknowns than parameters remain (bad
-/// input), or fewer (not identifiable), or where the map has no rational inverse.
+/// leading coefficient, divided otherwise (000 divides). Complains where no data tell parameters apart (not identifiable), also
+/// because an equation without parameters ties signals together; where more unknowns than parameters remain or the map has no
+/// rational inverse (bad input).
 std::optional<Lumping> lump(const model::Model& model, const std::vector<equation::OperatorForm>& forms, Diagnostics& diagnostics);
 
 }  // namespace algest::lumping

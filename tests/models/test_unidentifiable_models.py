@@ -78,6 +78,14 @@ class Unidentifiable(ModelCase):
                     self.assertLess(seconds, 1.0)
                     self.assertEqual(self.entries(), ["m.toml"])
 
+    def test_replay_answers_the_same(self):
+        self.write(("t [s],x,y,u\n" + "".join(f"{k / 1000},{k % 7},{k % 5},{k % 3}\n" for k in range(100))).encode(), "r.csv")
+        for text, wanted in ((model(["a = {}"], 'ode = "der(x) = a*u"'), 0), (model(["a = {}", "b = {}"], 'ode = "der(x) = a*b*u"'), 1),
+                             (model(["a = {}", "b = {}"], 'ode = "y = 2*u"', 'ode = "der(x) = a*y + b*u"'), 1), (model(["a = {}"], 'ode = "der(x) = a*z"'), 2)):
+            self.write(text.encode())
+            code, _, err, _ = self.run_algest("replay", "m.toml", "r.csv")
+            self.assertEqual(code, wanted, err)
+
     def test_functions_that_differ_are_told_apart(self):
         for ode in ("a*sin(u) + b*sin(2*u)", "a*exp(u) + b*exp(-u)", "a*max(u, y) + b*min(u, y)", "a*sqrt(u) + b*sqrt(u + 1)", "a*u^y + b*y^u",
                     "a*abs(u) + b*u", "a*sgn(u) + b*sgn(u + 1)", "a*cos(u + y) + b*cos(u - y)", "a/(u + y) + b/(u - y)", "a*log(u*y) + b*log(u/y)"):
