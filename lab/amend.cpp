@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/roles.hpp"
+
 namespace algest::lab {
 
 namespace {
@@ -84,7 +86,8 @@ std::size_t behind_last(const std::string& text, const Names& names) {
 Amendment amendment(const Binding& binding, const model::Model& model, double scan) {
     const Effect& effect = *binding.effect;
     std::vector<std::string> terms = binding.terms;
-    Amendment out{effect.name, binding.equations, {}, {}, effect.summary};
+    Amendment out{effect.name, binding.equations, {}, {}, "", effect.summary};
+    for (const auto& [role, kind] : effect.roles) if (kind == "time" && model.signal_index(time_name(model)) < 0) out.time = time_name(model);
     const auto unit_text = [&](std::string unit) {
         replace_all(unit, "{equation}", binding.unit);
         for (const auto& [role, filler] : binding.role_units) replace_all(unit, "{" + role + "}", filler);
@@ -120,6 +123,12 @@ std::string amended(const std::string& text, const model::Model& model, const Am
         std::size_t at = offset_of(out, equation.place(static_cast<int>(place)));
         while (at > 0 && out[at - 1] == ' ') --at;
         insertions.emplace_back(at, " " + term);
+    }
+    if (!amendment.time.empty()) {
+        const std::string entry = amendment.time + " = { unit = \"s\"" + (amendment.time == time_column ? "" : std::string(", column = \"") + time_column + "\"") + " }   # " + amendment.because + "\n";
+        const std::size_t where = behind_last(out, model.signals);
+        if (where != std::string::npos) insertions.emplace_back(where, entry);
+        else out += "\n[signals." + amendment.time + "]\nunit = \"s\"\ncolumn = \"" + time_column + "\"\n";
     }
     // Later places first, so that earlier positions stay right.
     const std::size_t parameters = behind_last(out, model.parameters);

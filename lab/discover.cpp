@@ -132,9 +132,16 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     if (!declared || !excited(bench, *nominal, diagnostics)) return std::nullopt;
 
     Selection selection = search(bench, *nominal, *declared, effects, progress);
-    if (selection.best.score.gap() > at_the_floor && bench.drifts(selection.best)) {
+    if (selection.best.score.gap() > far_from_the_floor && bench.drifts(selection.best)) {
+        Variant by_rows = *nominal;
         bench.measure_by(Yardstick::rows);
-        selection = search(bench, *nominal, *declared, effects, progress);
+        Selection second = search(bench, by_rows, *declared, effects, progress);
+        if (!second.best.amendments.empty()) {
+            selection = std::move(second);
+            *nominal = std::move(by_rows);
+        } else {
+            bench.measure_by(Yardstick::free_run);
+        }
     }
 
     Discovery out{};

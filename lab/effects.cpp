@@ -30,6 +30,7 @@ std::optional<Effect> read_effect(const std::string& path, Diagnostics& diagnost
         e.reference = text_of(root, "reference");
         if (const toml::array* a = root["aliases"].as_array()) for (const auto& x : *a) e.aliases.push_back(x.value_or(std::string()));
         if (const toml::array* a = root["enters"]["units"].as_array()) for (const auto& x : *a) e.units.push_back(x.value_or(std::string()));
+        e.outside = root["outside"].value_or(false);
         e.together = root["enters"]["together"].value_or(false);
         if (const toml::table* t = root["roles"].as_table()) for (const auto& [k, v] : *t) e.roles[std::string(k.str())] = v.value_or(std::string());
         e.term = root["rewrite"]["term"].value_or(std::string());
@@ -39,7 +40,7 @@ std::optional<Effect> read_effect(const std::string& path, Diagnostics& diagnost
             for (const auto& x : *a) if (const toml::table* t = x.as_table()) e.parameters.push_back({text_of(*t, "name"), text_of(*t, "unit"), (*t)["min"].value<double>().has_value()});
         }
         if (const toml::array* a = root["scan"].as_array()) {
-            for (const auto& x : *a) if (const toml::table* t = x.as_table()) e.scans.push_back({text_of(*t, "name"), text_of(*t, "unit"), (*t)["from"].value_or(1.0), (*t)["to"].value_or(1.0), (*t)["step"].value_or(1.0)});
+            for (const auto& x : *a) if (const toml::table* t = x.as_table()) e.scans.push_back({text_of(*t, "name"), text_of(*t, "unit"), (*t)["from"].value_or(1.0), (*t)["to"].value_or(1.0), (*t)["step"].value_or(1.0), (*t)["spectrum"].value_or(false)});
         }
         if (const toml::array* a = root["rival"].as_array()) {
             for (const auto& x : *a) if (const toml::table* t = x.as_table()) e.rivals.push_back({text_of(*t, "name"), text_of(*t, "experiment")});

@@ -25,6 +25,7 @@ struct EffectScan {
     double from;
     double to;
     double step;
+    bool spectrum;   ///< instead: the strongest lines of the residual's spectrum, in rad/s
 };
 
 struct Rival {
@@ -40,13 +41,14 @@ struct Effect {
     std::string reference;
     std::vector<std::string> units;              ///< of equations that it may enter
     bool together;                               ///< it enters all equations of that unit at once, with one value
-    std::map<std::string, std::string> roles;    ///< placeholder -> kind: speed, angle, position, own, current, any_speed, input, time
+    std::map<std::string, std::string> roles;    ///< placeholder -> kind: speed, angle, position, own, current, any_speed, input, time (docs/discover.md)
     std::string term;                            ///< with placeholders, as it is added beside the driving terms
     std::string d_term;                          ///< in the d equation of a rotating frame, {d} {q} {angle} standing for currents and
     std::string q_term;                          ///< electrical angle; empty: as any other equation
     std::vector<EffectParameter> parameters;
     std::vector<EffectScan> scans;               ///< at most one
     std::vector<Rival> rivals;
+    bool outside;                                ///< it hangs on nothing in the model: no rival of an effect that does
 };
 
 /// All effect files of the folders, by name; a file that is unsound is an error in `diagnostics`.

@@ -13,7 +13,6 @@ namespace algest::lab {
 
 namespace {
 
-constexpr double far_from_the_floor = 1.3;    ///< gap over floor from which on what is left must be noise that nothing foretells
 constexpr double most_of_it = 0.6;            ///< error against the nominal model's, for a name far from the floor
 constexpr double near_enough = 0.05;          ///< of the driving side of an equation: a residual that an engineer would be glad of
 constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs

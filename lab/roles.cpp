@@ -2,6 +2,7 @@
 #include "lab/roles.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace algest::lab {
 
@@ -44,6 +45,16 @@ int integral_of(const model::Model& model, int speed) {
     return -1;
 }
 
+std::string time_name(const model::Model& model) {
+    for (const model::Signal& s : model.signals) if (s.column == time_column) return s.name;
+    const auto taken = [&](const std::string& name) {
+        const auto is = [&](const auto& x) { return x.name == name || (x.name.size() == 1 && name.size() == 1 && std::toupper(x.name[0]) == std::toupper(name[0])); };
+        return std::any_of(model.signals.begin(), model.signals.end(), is) || std::any_of(model.constants.begin(), model.constants.end(), is) || std::any_of(model.parameters.begin(), model.parameters.end(), is);
+    };
+    for (const char* name : {"t", "time"}) if (!taken(name)) return name;
+    return "recording_time";
+}
+
 std::vector<Filler> fillers(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured) {
     const Moved own = moved(model, model.equations[equation]);
     if (own.signal < 0) return {};
@@ -65,6 +76,7 @@ std::vector<Filler> fillers(const std::string& kind, const model::Model& model, 
             if (kind == "position" || fits(unit_of(position), "rad")) out.push_back({position.name, position.unit.empty() ? "1" : position.unit});
         }
     }
+    if (kind == "time") out.push_back({time_name(model), "s"});
     for (std::size_t s = 0; s < model.signals.size(); ++s) {
         const Unit u = unit_of(model.signals[s]);
         const bool moves = std::any_of(model.equations.begin(), model.equations.end(), [&](const model::Equation& e) { return moved(model, e).signal == static_cast<int>(s); });

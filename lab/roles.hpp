@@ -22,6 +22,12 @@ int integral_of(const model::Model& model, int speed);
 /// True when a unit is known and has the dimension of `wanted`.
 bool fits(const units::Unit& unit, const std::string& wanted);
 
+/// The column of a recording that holds its time.
+constexpr const char* time_column = "t";
+
+/// The signal that stands for time: the model's own, else a name that is free for one.
+std::string time_name(const model::Model& model);
+
 /// A formula with its unit.
 struct Filler {
     std::string formula;

@@ -151,13 +151,20 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         std::vector<double> merit;
         for (const Variant& v : fitted) merit.push_back(criterion(v, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
+        // A wave of time fits what hangs on an angle at constant speed: what hangs on the machine goes first where both explain alike.
+        const auto outside = [&](const Variant& v) {
+            return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.outside && e.name == v.amendments.back().effect; });
+        };
+        for (std::size_t k = 1; k < order.size() && outside(fitted[order[0]]); ++k) {
+            if (!outside(fitted[order[k]]) && indistinguishable(fitted[order[0]], fitted[order[k]])) std::swap(order[0], order[k]);
+        }
         const Variant& top = fitted[order[0]];
         if (!worth_it(top.score, out.best.score)) break;
         out.evidence[row[order[0]]].chosen = true;
         out.rivals.clear();
         std::vector<Variant> next;
         for (const std::size_t k : order) {
-            if (k != order[0] && indistinguishable(top, fitted[k])) {
+            if (k != order[0] && outside(fitted[k]) <= outside(top) && indistinguishable(top, fitted[k])) {
                 out.rivals.push_back(fitted[k]);
                 out.evidence[row[k]].rival = true;
             }

@@ -10,6 +10,7 @@
 #include "generator/kernel.hpp"
 #include "lab/noise.hpp"
 #include "lab/roles.hpp"
+#include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
 namespace algest::lab {
@@ -20,7 +21,6 @@ constexpr double share_of_structure = 0.15;   ///< of a residual that is foretol
 constexpr double share_of_a_line = 0.2;       ///< of a residual at one frequency; white noise of 100 windows reaches 0.1
 constexpr double bench_tolerance = 1e-7;      ///< of the run whose residual is taken off
 constexpr double above_noise = 1.3;           ///< a residual nearer to the noise has no shape to look for
-constexpr int lowest_line = 4;                ///< half waves in the rows: slower is drift, which noise with memory makes too
 constexpr Eigen::Index windows_a_feature = 2; ///< in the half that a rule is fitted to
 constexpr Eigen::Index windows_a_turn = 12;   ///< of a stretch that is fitted, or foretold
 constexpr double ridge = 1e-3;                ///< of the features' own power
@@ -83,20 +83,8 @@ double foretold(Eigen::MatrixXd X, const Eigen::VectorXd& r) {
 
 /// Largest share of the residual's power at one frequency.
 double strongest_line(const Eigen::VectorXd& r) {
-    const double power = r.squaredNorm();
-    const double count = static_cast<double>(r.size());
-    double largest = 0;
-    for (int halves = lowest_line; halves < r.size() && power > 0; ++halves) {
-        const double step = M_PI * halves / count;
-        double c = 0;
-        double s = 0;
-        for (Eigen::Index k = 0; k < r.size(); ++k) {
-            c += r[k] * std::cos(step * static_cast<double>(k));
-            s += r[k] * std::sin(step * static_cast<double>(k));
-        }
-        largest = std::max(largest, 2 * (c * c + s * s) / (count * power));
-    }
-    return largest;
+    const auto lines = spectral_lines(r, 1);
+    return lines.empty() ? 0 : lines[0].share;
 }
 
 /// The recording as the fitted model would have made it: its residual is what sampling alone makes of a model that is right.
@@ -140,7 +128,6 @@ bool structured(const Workbench& bench, const Variant& v) {
                     X(w, static_cast<Eigen::Index>(f) + 1) = dot(weights.data(), series[f].data() + first, intervals + 1);
                 }
             }
-            if (getenv("ALGEST_DEBUG")) fprintf(stderr, "structure %s %d: foretold %g line %g\n", v.model.equations[e].name.c_str(), intervals, foretold(X, r), strongest_line(r));
             if (foretold(X, r) > share_of_structure || strongest_line(r) > share_of_a_line) return true;
         }
     }

@@ -21,7 +21,8 @@ constexpr int search_iterations = 12;
 constexpr std::size_t rows_of_an_undriven_run = 4000;
 constexpr double error_of_divergence = 1e3;     ///< sizes
 constexpr double lasting = 0.3;                 ///< share of a disturbed start that is still there a third of the way on: it does not fade
-constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations
+constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations, shorter where they would be too few
+constexpr std::size_t least_windows = 100;      ///< half overlapping, that score an equation
 
 void names_in(const formula::Formula& f, std::set<std::string>& out) {
     if (f->kind == formula::Kind::name) out.insert(f->name);
@@ -29,8 +30,9 @@ void names_in(const formula::Formula& f, std::set<std::string>& out) {
 }
 
 int row_intervals(const Rows& rows) {
-    const std::vector<int> all = weak_intervals(rows);
-    return std::min(all.back(), intervals_of_a_row);
+    int out = intervals_of_a_row;
+    while (out > 8 && 2 * rows.size() < least_windows * static_cast<std::size_t>(out)) out /= 2;
+    return out;
 }
 
 /// Takes the errors of one output or equation into a score. nrmse holds the sum of squares until `finish`.

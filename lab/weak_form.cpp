@@ -1,19 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/weak_form.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "algest/dot.hpp"
-#include "algest/parabola_filter.hpp"
 #include "generator/annihilator.hpp"
 #include "generator/kernel.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/noise.hpp"
 #include "lab/polynomial_value.hpp"
 
 namespace algest::lab {
 
 namespace {
+
+/// Slope of a parabola through the samples on both sides, as wide as the noise needs: off line, the future is known too.
+std::vector<double> slopes(const std::vector<double>& x, double noise, double period) {
+    constexpr double noise_of_a_slope = 0.03;   // of its rms
+    std::vector<double> out;
+    for (const std::size_t reach : {2, 4, 8, 16, 32, 64}) {
+        double weight = 0;   // sum of k^2 over the samples on both sides
+        for (std::size_t k = 1; k <= reach; ++k) weight += 2.0 * static_cast<double>(k * k);
+        out.assign(x.size(), 0.0);
+        double squares = 0;
+        for (std::size_t row = 0; row < x.size(); ++row) {
+            const std::size_t centre = std::clamp(row, reach, x.size() > reach ? x.size() - 1 - reach : reach);
+            if (centre < reach || centre + reach >= x.size()) break;   // too short for this reach
+            double slope = 0;
+            for (std::size_t k = 1; k <= reach; ++k) slope += static_cast<double>(k) * (x[centre + k] - x[centre - k]);
+            out[row] = slope / (weight * period);
+            squares += out[row] * out[row];
+        }
+        const double rms = std::sqrt(squares / static_cast<double>(x.size()));
+        if (noise / (std::sqrt(weight) * period) < noise_of_a_slope * rms) break;
+    }
+    return out;
+}
 
 /// Every product of the form, sample by sample; delayed forms are one sample late and start at the second row.
 std::vector<std::vector<double>> products(const model::Model& model, const Bench& bench, const equation::OperatorForm& form, Rows rows) {
@@ -31,15 +55,20 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
     const plan::Tape tape = builder.finish();
     const std::size_t signals = model.signals.size();
     std::vector<double> here(signals), previous(signals), derivative(signals), values(tape.operations.size()), results(tape.results.size());
-    std::vector<ParabolaFilter<double>> filters(signals);
+    std::vector<std::vector<double>> slope(signals);
+    if (form.delayed) {
+        const std::vector<double> noise = noise_by_signal(model, bench);
+        for (const equation::Atom& atom : form.atoms) {
+            if (!atom.differentiates) continue;
+            for (const int s : atom.arguments) slope[static_cast<std::size_t>(s)] = slopes(bench.measured[static_cast<std::size_t>(s)], noise[static_cast<std::size_t>(s)], bench.drive.period);
+        }
+    }
     std::vector<std::vector<double>> out(form.terms.size());
     for (std::size_t row = rows.begin; row < rows.end; ++row) {
         for (std::size_t s = 0; s < signals; ++s) {
             if (bench.measured[s].empty()) continue;
             here[s] = bench.measured[s][row];
-            if (row == rows.begin + 1) filters[s].start(previous[s], here[s]);
-            if (row > rows.begin + 1) filters[s].advance(previous[s], here[s]);
-            derivative[s] = filters[s].slope / bench.drive.period;
+            if (row > 0 && !slope[s].empty()) derivative[s] = slope[s][row - 1];   // the form is one sample late
         }
         if (!form.delayed || row > rows.begin) {
             plan::evaluate(tape, here.data(), previous.data(), derivative.data(), values.data(), results.data());
@@ -109,7 +138,7 @@ std::optional<equation::OperatorForm> measured_form(const model::Model& model, c
 
 std::vector<int> weak_intervals(const Rows& rows) {
     std::vector<int> out;
-    for (const int intervals : {16, 64, 256}) if (out.empty() || rows.size() > 20 * static_cast<std::size_t>(intervals)) out.push_back(intervals);
+    for (const int intervals : {16, 64, 256, 1024}) if (out.empty() || rows.size() > 20 * static_cast<std::size_t>(intervals)) out.push_back(intervals);
     return out;
 }
 
