@@ -86,7 +86,8 @@ std::size_t behind_last(const std::string& text, const Names& names) {
 Amendment amendment(const Binding& binding, const model::Model& model, double scan) {
     const Effect& effect = *binding.effect;
     std::vector<std::string> terms = binding.terms;
-    Amendment out{effect.name, binding.equations, {}, {}, "", effect.summary};
+    Amendment out{effect.name, binding.equations, {}, {}, "", "", effect.summary};
+    if (binding.roles[0].size() == 1 && model.signal_index(binding.roles[0].begin()->second) >= 0) out.against = binding.roles[0].begin()->second;
     for (const auto& [role, kind] : effect.roles) if (kind == "time" && model.signal_index(time_name(model)) < 0) out.time = time_name(model);
     const auto unit_text = [&](std::string unit) {
         replace_all(unit, "{equation}", binding.unit);

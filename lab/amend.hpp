@@ -26,6 +26,7 @@ struct Amendment {
     std::vector<std::string> terms;   ///< by equation: "-Tc*sgn(w)", with its sign
     std::vector<NewName> names;
     std::string time;        ///< signal that stands for time, where a term needs it and the model has none; else empty
+    std::string against;     ///< signal that the terms hang on; empty: none, or more than a signal
     std::string because;     ///< the comment beside the new parameters
 };
 

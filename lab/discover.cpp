@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/discover.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -16,6 +18,7 @@ namespace algest::lab {
 namespace {
 
 constexpr double confirming_tolerance = 1e-8;
+constexpr double a_run_is_lost = 0.05;   ///< validation error, nrmse, above which a machine that does not forget is judged by its rows
 
 std::vector<NamedParameter> parameters(const Variant& v) {
     std::vector<NamedParameter> out;
@@ -97,8 +100,7 @@ void confirm(const Workbench& bench, const Variant& nominal, const Variant* amen
         const std::vector<double>& measured = nominal.bench.measured[s];
         double squares = 0;
         for (std::size_t row = test.begin; row < test.end; ++row) {
-            const std::size_t k = row - bench.parts().fitted.begin;
-            const double miss = k < run.samples ? measured[row] - run.signals[s][k] : 1e3 * size_of(measured);
+            const double miss = row < run.samples ? measured[row] - run.signals[s][row] : 1e3 * size_of(measured);
             squares += miss * miss;
         }
         return std::sqrt(squares / static_cast<double>(test.size())) / size_of(measured);
@@ -107,6 +109,13 @@ void confirm(const Workbench& bench, const Variant& nominal, const Variant* amen
         const std::size_t s = static_cast<std::size_t>(output);
         out.outputs.push_back({nominal.model.signals[s].name, error(out.before, s), error(out.after, s), noise[s] / size_of(nominal.bench.measured[s])});
     }
+}
+
+/// True when the amended model is nearer on the test rows: the mean logarithm of the errors' ratio.
+bool nearer(const std::vector<OutputGap>& outputs) {
+    double gain = 0;
+    for (const OutputGap& o : outputs) gain += std::log(std::max(o.before, 1e-300) / std::max(o.after, 1e-300));
+    return gain > 0;
 }
 
 }  // namespace
@@ -132,7 +141,7 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     if (!declared || !excited(bench, *nominal, diagnostics)) return std::nullopt;
 
     Selection selection = search(bench, *nominal, *declared, effects, progress);
-    if (selection.best.score.gap() > far_from_the_floor && bench.drifts(selection.best)) {
+    if (selection.best.score.gap() > far_from_the_floor && selection.best.score.nrmse > a_run_is_lost && bench.drifts(selection.best)) {
         Variant by_rows = *nominal;
         bench.measure_by(Yardstick::rows);
         Selection second = search(bench, by_rows, *declared, effects, progress);
@@ -151,17 +160,28 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
     out.evidence = std::move(selection.evidence);
     out.doubts = doubts(bench, *nominal, selection, out.verdict);
-    const bool stands = out.verdict == Verdict::named || out.verdict == Verdict::ambiguous;
+    bool stands = out.verdict == Verdict::named || out.verdict == Verdict::ambiguous;
     const Variant* amended = stands ? &selection.best : nullptr;
     if (stands) for (const Amendment& a : selection.best.amendments) out.effects.push_back(named(selection.best, a, effects));
     if (out.verdict == Verdict::ambiguous) tell_apart(selection, effects, out);
     confirm(bench, *nominal, amended, out);
+    if (amended != nullptr && bench.yardstick() == Yardstick::free_run && !nearer(out.outputs)) {
+        // What the training stretch liked, the test stretch refutes.
+        amended = nullptr;
+        stands = false;
+        out.verdict = Verdict::unknown;
+        out.effects.clear();
+        out.alternatives.clear();
+        out.experiments.clear();
+        out.doubts = {fmt::format("{} explained the training stretch and made the test stretch worse: nothing is added", selection.best.amendments.back().effect)};
+        out.after = out.before;
+        for (OutputGap& o : out.outputs) o.after = o.before;
+    }
     out.residuals = residuals(bench, *nominal, amended);
     out.where = locate(bench, *nominal, out.residuals);
     out.parameters_before = parameters(*nominal);
     if (stands) out.parameters_after = parameters(selection.best);
     out.model_text = stands ? text_with_fitted_values(*nominal, selection.best) : model_text;
-    out.first_row = parts->fitted.begin;
     out.train_from_s = recording.t[parts->train.begin];
     out.train_to_s = recording.t[parts->train.end - 1];
     out.test_from_s = recording.t[parts->test.begin];

@@ -91,7 +91,6 @@ struct Discovery {
     FreeRun before;                                       ///< over the whole recording, by the model's signals
     FreeRun after;
     double train_from_s, train_to_s, test_from_s, test_to_s;
-    std::size_t first_row = 0;                            ///< of the recording: where `before` and `after` start
 };
 
 }  // namespace algest::lab

@@ -102,6 +102,15 @@ Variables choose_variables(const model::Model& model, const Bench& bench, const 
     return out;
 }
 
+std::vector<double> scaled_start(const FitStart& start, const Variables& variables) {
+    std::vector<double> x;
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+        const double value = k < variables.parameters.size() ? start.parameters[variables.parameters[k]] : start.initial[variables.entries[k - variables.parameters.size()]];
+        x.push_back(value / variables.scale[k]);
+    }
+    return x;
+}
+
 }  // namespace
 
 std::vector<int> scored_outputs(const model::Model& model, const Bench& bench) {
@@ -137,22 +146,34 @@ double rows_that_count_as_one(const double* r, std::size_t count) {
     return sum;
 }
 
-double output_error(const model::Model& model, const Bench& bench, const FitStart& at) {
+std::vector<double> output_residual(const model::Model& model, const Bench& bench, const FitStart& at) {
     const FreeRunError error(model, bench, at, {});
-    std::vector<double> residuals(static_cast<std::size_t>(error.num_residuals()));
-    error.residuals(nullptr, residuals.data());
+    std::vector<double> out(static_cast<std::size_t>(error.num_residuals()));
+    error.residuals(nullptr, out.data());
+    return out;
+}
+
+double output_error(const model::Model& model, const Bench& bench, const FitStart& at) {
     double squares = 0;
-    for (const double r : residuals) squares += r * r;
-    return squares / static_cast<double>(error.outputs().size());
+    for (const double r : output_residual(model, bench, at)) squares += r * r;
+    return squares / static_cast<double>(scored_outputs(model, bench).size());
+}
+
+Eigen::MatrixXd output_slopes(const model::Model& model, const Bench& bench, const FitStart& at) {
+    const Variables variables = choose_variables(model, bench, at);
+    const FreeRunError error(model, bench, at, variables);
+    const std::vector<double> x = scaled_start(at, variables);
+    std::vector<double> residual(static_cast<std::size_t>(error.num_residuals()));
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> slopes(error.num_residuals(), static_cast<Eigen::Index>(variables.size()));
+    const double* block = x.data();
+    double* columns = slopes.data();
+    error.Evaluate(&block, residual.data(), &columns);
+    return slopes;
 }
 
 Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     const Variables variables = choose_variables(model, bench, start);
-    std::vector<double> x;
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-        const double value = k < variables.parameters.size() ? start.parameters[variables.parameters[k]] : start.initial[variables.entries[k - variables.parameters.size()]];
-        x.push_back(value / variables.scale[k]);
-    }
+    std::vector<double> x = scaled_start(start, variables);
     if (x.empty()) return {start.parameters, {}, start.initial, output_error(model, bench, start), true, 1};
     auto* cost = new FreeRunError(model, bench, start, variables);   // the problem owns it
     ceres::Problem problem;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parameters from the free run's output error: a bounded Levenberg-Marquardt (Ceres) over parameters and initial values.
 #pragma once
+#include <Eigen/Dense>
 #include <cstddef>
 #include <vector>
 
@@ -46,6 +47,12 @@ double rows_that_count_as_one(const double* residual, std::size_t rows);
 
 /// Mean over outputs of the squared error over (size of the measured signal)^2.
 double output_error(const model::Model& model, const Bench& bench, const FitStart& at);
+
+/// The error of every scored output at every row, each over (size of its signal * sqrt(rows)): squares sum to the sum of nrmse^2.
+std::vector<double> output_residual(const model::Model& model, const Bench& bench, const FitStart& at);
+
+/// Its slope by what a fit at this start would move, a column each, in units of the start's own size of it.
+Eigen::MatrixXd output_slopes(const model::Model& model, const Bench& bench, const FitStart& at);
 
 /// Minimises the sum over outputs of the squared error over (size of the measured signal)^2. Parameters stay within the model's
 /// min and max. A run that diverges counts as an error of 1e3 sizes from there on.

@@ -14,6 +14,9 @@ namespace algest::lab {
 namespace {
 
 constexpr double most_of_it = 0.6;            ///< error against the nominal model's, for a name far from the floor
+constexpr double too_far_for_noise = 2.0;     ///< gap over floor beyond which it takes more than the process's own noise,
+constexpr double nearly_nothing = 0.1;        ///< unless this little of the gap is left
+constexpr double no_noise = 50;               ///< F statistic of the weak form that noise does not reach
 constexpr double near_enough = 0.05;          ///< of the driving side of an equation: a residual that an engineer would be glad of
 constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
 constexpr std::size_t clipped_run = 5;        ///< samples in a row at an extreme that no noise would make alike
@@ -43,13 +46,14 @@ bool declares_noise(const model::Signal& s) { return s.noise || s.resolution; }
 Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection) {
     const Variant& best = selection.best;
     if (nominal.score.gap() <= at_the_floor) return Verdict::none;
-    const auto nothing = [&] { return structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
+    const bool spoken_for = std::any_of(selection.evidence.begin(), selection.evidence.end(), [](const Evidence& e) { return e.strength > no_noise; });
+    const auto nothing = [&] { return spoken_for || structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
     if (best.amendments.empty()) return nothing();
     const double left = best.score.nrmse / nominal.score.nrmse;
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor) {
-        if (structured(bench, best)) return Verdict::unknown;
+        if (structured(bench, best) || (best.score.gap() > too_far_for_noise && left > nearly_nothing)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;

@@ -15,6 +15,14 @@ namespace {
 constexpr int intervals_of_a_residual = 32;
 constexpr double least_explained = 0.1;       ///< of a residual by one signal, to be called its region
 
+/// As an engineer writes it, where UDUNITS would print base units.
+std::string spelled(const units::Unit& unit) {
+    for (const char* usual : {"V", "N.m", "N", "A", "W", "Pa", "m^3/s", "cm^3/s", "K/s", "rad/s", "m/s"}) {
+        if (unit.known() && unit.same_dimension(*units::Unit::parse(usual)) && std::abs(unit.factor_to(*units::Unit::parse(usual)) - 1) < 1e-12) return usual;
+    }
+    return unit.text();
+}
+
 /// How a residual may hang on one signal.
 enum class Shape { linear, sign, square };
 
@@ -79,14 +87,19 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
         const std::vector<double> parameters = own_parameters(bench, nominal, e);
         const auto form = weak_form(nominal.model, nominal.bench, e, all, intervals_of_a_residual);
         if (!form) continue;
-        EquationResidual r{nominal.model.equations[e].name, model::unit_of_equation(nominal.model, nominal.model.equations[e]).text(), {}, {}, {}, 0, {}, {}, {}, {}};
+        EquationResidual r{nominal.model.equations[e].name, spelled(model::unit_of_equation(nominal.model, nominal.model.equations[e])), {}, {}, {}, 0, {}, {}, {}, {}};
         for (const std::size_t row : form->centre) r.t.push_back(bench.recording().t[row]);
         const Eigen::VectorXd before = weak_residual(*form, parameters);
         r.before = as_vector(before);
         r.noise = weak_noise(nominal.model, nominal.bench, e, bench.parts().train, intervals_of_a_residual, parameters, noise_by_signal(nominal.model, nominal.bench));
-        const Region region = region_of(nominal, form->centre, before);
-        if (region.signal >= 0) {
-            const std::size_t s = static_cast<std::size_t>(region.signal);
+        int against = region_of(nominal, form->centre, before).signal;
+        for (const Amendment& a : amended != nullptr ? amended->amendments : std::vector<Amendment>()) {
+            const bool enters = std::any_of(a.equations.begin(), a.equations.end(), [&](std::size_t k) { return nominal.whole.equations[k].name == r.equation; });
+            const int s = nominal.model.signal_index(a.against);
+            if (enters && s >= 0 && !nominal.bench.measured[static_cast<std::size_t>(s)].empty()) against = s;
+        }
+        if (against >= 0) {
+            const std::size_t s = static_cast<std::size_t>(against);
             r.signal = nominal.model.signals[s].name;
             r.signal_unit = nominal.model.signals[s].unit;
             for (const std::size_t row : form->centre) r.x.push_back(nominal.bench.measured[s][row]);

@@ -86,10 +86,10 @@ struct Series {
 };
 
 /// NaN where a run has no sample: it ended.
-double at(const FreeRun& run, std::size_t signal, std::size_t row, std::size_t first_row) {
+double at(const FreeRun& run, std::size_t signal, std::size_t row) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (signal >= run.signals.size() || row < first_row || row - first_row >= run.signals[signal].size()) return nan;
-    return run.signals[signal][row - first_row];
+    if (signal >= run.signals.size() || row >= run.signals[signal].size()) return nan;
+    return run.signals[signal][row];
 }
 
 /// How often the signal passes from below to above its mean or back, by more than a tenth of its size.
@@ -202,8 +202,8 @@ std::optional<TestFigure> test_figure(const Discovery& discovery, const model::M
         if (t < discovery.test_from_s - 0.5 * recording.period || t > discovery.test_to_s + 0.5 * recording.period) continue;
         series.t.push_back(t);
         series.measured.push_back((*values)[row]);
-        series.before.push_back(at(discovery.before, index, row, discovery.first_row));
-        series.after.push_back(at(discovery.after, index, row, discovery.first_row));
+        series.before.push_back(at(discovery.before, index, row));
+        series.after.push_back(at(discovery.after, index, row));
         series.error_before.push_back(series.measured.back() - series.before.back());
         series.error_after.push_back(series.measured.back() - series.after.back());
     }

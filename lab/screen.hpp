@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which effects the weak form of a model's equations speaks for: cheap, without a single free run.
+// Which effects the data speak for before any of them is fitted: by the weak form of the equations, and by the slope of the free run.
 #pragma once
 #include <vector>
 
@@ -12,12 +12,14 @@ namespace algest::lab {
 struct Candidate {
     Binding binding;
     double scan;
-    double strength;              ///< F statistic of the reduction of the weak residual, least over nothing: larger is likelier
-    std::vector<double> start;    ///< parameters of the amended model, by the weak form of the equation that the effect enters
+    double strength;              ///< F statistic of the reduction of the weak residual; 0 where the weak form cannot see it
+    double share;                 ///< of the free run's squared error on the fitted rows that it would take, to first order
+    std::vector<double> start;    ///< parameters of the amended model, by whichever of the two speaks louder
 };
 
-/// The most likely candidates beside what `base` already holds, best first, at most `most` and `most_of_one` of one effect.
-/// Cost: one weak form a candidate, window length and scanned value.
-std::vector<Candidate> screen(const Workbench& bench, const Variant& base, const std::vector<Effect>& effects, std::size_t most, std::size_t most_of_one);
+/// The most likely candidates beside what `base` already holds: at most `by_rows` by the weak form, best first, at most two of one effect,
+/// then at most `by_run` more by the free run's slope, which sees what adds up over a run and what equations share.
+/// Cost: one weak form a candidate, window length and scanned value; one run a parameter of a candidate.
+std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::vector<Effect>& effects, std::size_t by_rows, std::size_t by_run);
 
 }  // namespace algest::lab

@@ -12,9 +12,10 @@ namespace algest::lab {
 namespace {
 
 constexpr int most_effects = 3;
-constexpr std::size_t finalists = 5;            ///< candidates that are fitted in free run, beside each base
-constexpr std::size_t bindings_of_one = 2;      ///< of one effect among them
+constexpr std::size_t by_rows = 4;              ///< candidates of the weak form that are fitted in free run, beside each base
+constexpr std::size_t by_run = 2;               ///< more, of the free run's slope
 constexpr double least_strength = 4;            ///< F statistic below which a candidate is not worth a fit, beyond the first
+constexpr double least_share = 0.02;             ///< of the free run's error, the same
 constexpr double a_base_within = 2.0;           ///< validation error of a further base, over that of the best
 constexpr std::size_t bases = 2;                ///< that a further effect is tried beside: the best set of one may not be part of the best of two
 constexpr double needed_gain = 0.95;            ///< an effect must bring the validation error below this times what it was
@@ -39,8 +40,8 @@ int added_parameters(const Variant& v) {
 
 /// Deflated information criterion of v over the nominal model: larger is better.
 double criterion(const Variant& v, const Variant& nominal) {
-    double rows = 0;
-    for (const double n : v.score.independent) rows += n;
+    double rows = 0;   // the nominal model's, the same for all: a good fit leaves white noise, whose rows all count
+    for (const double n : nominal.score.independent) rows += n;
     return log_gain(v.score, nominal.score) - added_parameters(v) * std::log(std::max(rows, 2.0));
 }
 
@@ -132,8 +133,8 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
             const double share = (step - 1 + static_cast<double>(b) / static_cast<double>(beside.size())) / most_effects;
             if (progress) progress("screen effects", 0.1 + 0.8 * share);
             std::size_t seen = 0;
-            for (const Candidate& c : screen(bench, base, effects, finalists, bindings_of_one)) {
-                if (++seen > 1 && c.strength < least_strength) break;
+            for (const Candidate& c : screen(bench, base, effects, by_rows, by_run)) {
+                if (++seen > 1 && c.strength < least_strength && !(c.share > least_share)) continue;
                 Identity id = identity(base);
                 id.emplace(c.binding.effect->name, c.binding.equations);
                 if (c.binding.effect->scans.empty() && !tried.insert(id).second) continue;

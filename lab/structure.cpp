@@ -10,6 +10,7 @@
 #include "generator/kernel.hpp"
 #include "lab/noise.hpp"
 #include "lab/roles.hpp"
+#include "lab/slope.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
@@ -18,40 +19,71 @@ namespace algest::lab {
 namespace {
 
 constexpr double share_of_structure = 0.15;   ///< of a residual that is foretold: noise does not reach it
-constexpr double share_of_a_line = 0.2;       ///< of a residual at one frequency; white noise of 100 windows reaches 0.1
+constexpr double share_of_a_line = 0.2;       ///< of a residual at one frequency, at least
+constexpr double unlikely = 8;                ///< logarithm of how seldom white noise makes a line where it is called one
 constexpr double bench_tolerance = 1e-7;      ///< of the run whose residual is taken off
 constexpr double above_noise = 1.3;           ///< a residual nearer to the noise has no shape to look for
 constexpr Eigen::Index windows_a_feature = 2; ///< in the half that a rule is fitted to
 constexpr Eigen::Index windows_a_turn = 12;   ///< of a stretch that is fitted, or foretold
 constexpr double ridge = 1e-3;                ///< of the features' own power
 
-/// What a residual may hang on, sample by sample: the signals, bent in the usual ways, and their past. The past of a signal that moves
-/// starts before the window: its derivative inside the window would tell of the noise of the process itself.
-std::vector<std::vector<double>> features(const Variant& v, Rows rows, std::size_t window) {
-    std::vector<std::vector<double>> out;
+/// A recorded signal, or the slope of one, over its typical size.
+struct Series {
+    std::vector<double> values;
+    bool moves;
+};
+
+std::vector<Series> series_of(const Variant& v) {
+    std::vector<Series> out;
+    const std::vector<double> noise = noise_by_signal(v.model, v.bench);
+    const auto add = [&](std::vector<double> values, bool moves) {
+        const double size = size_of(values);
+        if (!(size > 0)) return;
+        for (double& x : values) x /= size;
+        out.push_back({std::move(values), moves});
+    };
     for (std::size_t s = 0; s < v.bench.measured.size(); ++s) {
         const std::vector<double>& m = v.bench.measured[s];
         if (m.empty()) continue;
-        const double size = std::max(size_of(m), 1e-300);
-        const auto add = [&](const auto& law, std::size_t lag) {
-            std::vector<double> f;
-            for (std::size_t row = rows.begin; row < rows.end; ++row) f.push_back(law(m[row >= rows.begin + lag ? row - lag : rows.begin] / size));
-            out.push_back(std::move(f));
-        };
-        const auto same = [](double x) { return x; };
-        const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
-        add(same, 0);
-        add([](double x) { return x * x; }, 0);
-        add([](double x) { return x * std::abs(x); }, 0);
-        add([](double x) { return x * x * x; }, 0);
-        add(sign, 0);
         const bool moves = std::find(v.bench.system.moving.begin(), v.bench.system.moving.end(), static_cast<int>(s)) != v.bench.system.moving.end();
-        if (!moves) for (const std::size_t lag : {1, 4, 16, 64}) add(same, lag);
-        for (const std::size_t windows : {1, 2, 4}) {   // what remembers, such as hysteresis, shows against the past
-            if (moves) add(same, windows * window);
-            add(sign, windows * window);
+        add(m, moves);
+        const bool has_speed = std::any_of(v.bench.system.states.begin(), v.bench.system.states.end(), [&](const StateEntry& e) { return e.signal == static_cast<int>(s) && e.order == 1; });
+        if (has_speed) add(slopes(m, noise[s], v.bench.drive.period), true);
+        for (std::size_t other = 0; other < s && moves; ++other) {   // the twist of a shaft, the stroke of a spring between two bodies
+            const std::vector<double>& o = v.bench.measured[other];
+            if (o.empty() || v.model.signals[other].unit != v.model.signals[s].unit || v.model.signals[s].unit.empty()) continue;
+            std::vector<double> difference = m;
+            for (std::size_t row = 0; row < o.size(); ++row) difference[row] -= o[row];
+            add(std::move(difference), true);
         }
     }
+    return out;
+}
+
+/// What a residual may hang on, sample by sample, the plainest first: the signals, bent in the usual ways, and their past. The past of a
+/// signal that moves starts before the window: its derivative inside the window would tell of the noise of the process itself.
+std::vector<std::vector<double>> features(const std::vector<Series>& series, Rows rows, std::size_t window, std::size_t most) {
+    std::vector<std::vector<double>> out;
+    const auto add = [&](const Series& s, const auto& law, std::size_t lag) {
+        if (out.size() == most) return;
+        std::vector<double> f;
+        for (std::size_t row = rows.begin; row < rows.end; ++row) f.push_back(law(s.values[row >= rows.begin + lag ? row - lag : rows.begin]));
+        out.push_back(std::move(f));
+    };
+    const auto same = [](double x) { return x; };
+    const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+    for (const Series& s : series) add(s, same, 0);
+    for (const Series& s : series) add(s, [](double x) { return x * x * x; }, 0);
+    for (const Series& s : series) add(s, sign, 0);
+    for (const Series& s : series) add(s, [](double x) { return x * x; }, 0);
+    for (const std::size_t lag : {1, 4, 16, 64}) for (const Series& s : series) if (!s.moves) add(s, same, lag);
+    for (const std::size_t windows : {1, 2, 4}) {   // what remembers, such as hysteresis, shows against the past
+        for (const Series& s : series) {
+            if (s.moves) add(s, same, windows * window);
+            add(s, sign, windows * window);
+        }
+    }
+    for (const Series& s : series) add(s, [](double x) { return x * std::abs(x); }, 0);
     return out;
 }
 
@@ -87,17 +119,22 @@ double strongest_line(const Eigen::VectorXd& r) {
     return lines.empty() ? 0 : lines[0].share;
 }
 
+/// White noise of n values has a line of share z with probability exp(-z n/2), and there are n of them.
+double line_threshold(Eigen::Index values) {
+    const double n = static_cast<double>(values);
+    return std::max(share_of_a_line, 2 * (std::log(n) + unlikely) / n);
+}
+
 /// The recording as the fitted model would have made it: its residual is what sampling alone makes of a model that is right.
 /// A run that diverges leaves the recording as it is.
 Bench simulated_bench(const Workbench& bench, const Variant& v) {
     Bench out = v.bench;
     const FreeRun run = bench.run(v, bench_tolerance);
-    const std::size_t first = bench.parts().fitted.begin;
-    if (run.samples + first < bench.parts().train.end) return out;
+    if (run.samples < bench.parts().train.end) return out;
     for (const int s : v.bench.system.moving) {
         std::vector<double>& m = out.measured[static_cast<std::size_t>(s)];
         if (m.empty()) continue;
-        std::copy(run.signals[static_cast<std::size_t>(s)].begin(), run.signals[static_cast<std::size_t>(s)].end(), m.begin() + static_cast<std::ptrdiff_t>(first));
+        std::copy(run.signals[static_cast<std::size_t>(s)].begin(), run.signals[static_cast<std::size_t>(s)].end(), m.begin());
     }
     return out;
 }
@@ -107,9 +144,10 @@ Bench simulated_bench(const Workbench& bench, const Variant& v) {
 bool structured(const Workbench& bench, const Variant& v) {
     const Rows rows = bench.parts().train;
     const Bench simulated = simulated_bench(bench, v);
+    const std::vector<Series> series = series_of(v);
     for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
         const int n = std::max(moved(v.model, v.model.equations[e]).order, 1);
-        for (const int intervals : {16, 64}) {
+        for (const int intervals : weak_intervals(rows)) {
             const auto form = weak_form(v.model, v.bench, e, rows, intervals);
             if (!form) continue;
             Eigen::VectorXd r = weak_residual(*form, weak_fit(*form, v.fit.parameters).parameters);   // its own: noise of the process in another equation bends the free run's
@@ -118,17 +156,17 @@ bool structured(const Workbench& bench, const Variant& v) {
             // At the noise's level the signals' own noise, which both sides share, foretells.
             const double noise = weak_noise(v.model, v.bench, e, rows, intervals, v.fit.parameters, noise_by_signal(v.model, v.bench));
             if (r.norm() < above_noise * noise * std::sqrt(static_cast<double>(r.size()))) continue;
-            const auto series = features(v, rows, static_cast<std::size_t>(intervals) + 1);
+            const auto candidates = features(series, rows, static_cast<std::size_t>(intervals) + 1, static_cast<std::size_t>(std::max<Eigen::Index>(r.size() / (2 * windows_a_feature), 1)) - 1);
             const auto weights = kernel::weights(annihilator::kernel(0, 1, {n, 0}), intervals, plan::Hold::linear, plan::Quadrature::exact, plan::Scalar::float64);
-            Eigen::MatrixXd X(r.size(), static_cast<Eigen::Index>(series.size()) + 1);
+            Eigen::MatrixXd X(r.size(), static_cast<Eigen::Index>(candidates.size()) + 1);
             X.col(0).setOnes();
-            for (std::size_t f = 0; f < series.size(); ++f) {
+            for (std::size_t f = 0; f < candidates.size(); ++f) {
                 for (Eigen::Index w = 0; w < r.size(); ++w) {
                     const std::size_t first = form->centre[static_cast<std::size_t>(w)] - rows.begin - static_cast<std::size_t>(intervals + 1) / 2;
-                    X(w, static_cast<Eigen::Index>(f) + 1) = dot(weights.data(), series[f].data() + first, intervals + 1);
+                    X(w, static_cast<Eigen::Index>(f) + 1) = dot(weights.data(), candidates[f].data() + first, intervals + 1);
                 }
             }
-            if (foretold(X, r) > share_of_structure || strongest_line(r) > share_of_a_line) return true;
+            if (foretold(X, r) > share_of_structure || strongest_line(r) > line_threshold(r.size())) return true;
         }
     }
     return false;

@@ -202,9 +202,21 @@ Score Workbench::rows_score(const Variant& v) const {
 FreeRun Workbench::run(const Variant& v, double tolerance) const {
     RunOptions options = v.bench.options;
     options.tolerance = tolerance;
-    options.first = parts_.fitted.begin;
+    options.first = parts_.train.begin;
     options.stride = 1;
-    return free_run(v.bench.system, v.fit.parameters, v.fit.initial, v.bench.drive, options);
+    FreeRun out = free_run(v.bench.system, v.fit.parameters, v.fit.initial, v.bench.drive, options);
+    if (parts_.train.begin == 0) return out;
+    // The rows before the training stretch: from the recording's own start, which nothing was fitted to.
+    options.first = 0;
+    options.end = parts_.train.begin;
+    FreeRun before = free_run(v.bench.system, v.fit.parameters, v.bench.initial, v.bench.drive, options);
+    for (std::size_t s = 0; s < out.signals.size(); ++s) {
+        if (out.signals[s].empty()) continue;
+        before.signals[s].resize(parts_.train.begin, before.signals[s].back());
+        out.signals[s].insert(out.signals[s].begin(), before.signals[s].begin(), before.signals[s].end());
+    }
+    out.samples += parts_.train.begin;
+    return out;
 }
 
 bool Workbench::drifts(const Variant& fitted) const {

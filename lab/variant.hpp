@@ -70,7 +70,7 @@ public:
     /// Fits once more, to all training rows and to the end: what is reported, once nothing is left to decide. The score stays.
     void refine(Variant& v) const;
 
-    /// Free run of a fitted variant over all rows from the first fitted one on.
+    /// Free run of a fitted variant over the whole recording; the rows before the training stretch are a run of their own.
     FreeRun run(const Variant& v, double tolerance) const;
 
     /// True when a disturbed start is still there a third of the training rows later: a long run adds up every small error.

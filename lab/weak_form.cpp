@@ -11,33 +11,11 @@
 #include "generator/tape_builder.hpp"
 #include "lab/noise.hpp"
 #include "lab/polynomial_value.hpp"
+#include "lab/slope.hpp"
 
 namespace algest::lab {
 
 namespace {
-
-/// Slope of a parabola through the samples on both sides, as wide as the noise needs: off line, the future is known too.
-std::vector<double> slopes(const std::vector<double>& x, double noise, double period) {
-    constexpr double noise_of_a_slope = 0.03;   // of its rms
-    std::vector<double> out;
-    for (const std::size_t reach : {2, 4, 8, 16, 32, 64}) {
-        double weight = 0;   // sum of k^2 over the samples on both sides
-        for (std::size_t k = 1; k <= reach; ++k) weight += 2.0 * static_cast<double>(k * k);
-        out.assign(x.size(), 0.0);
-        double squares = 0;
-        for (std::size_t row = 0; row < x.size(); ++row) {
-            const std::size_t centre = std::clamp(row, reach, x.size() > reach ? x.size() - 1 - reach : reach);
-            if (centre < reach || centre + reach >= x.size()) break;   // too short for this reach
-            double slope = 0;
-            for (std::size_t k = 1; k <= reach; ++k) slope += static_cast<double>(k) * (x[centre + k] - x[centre - k]);
-            out[row] = slope / (weight * period);
-            squares += out[row] * out[row];
-        }
-        const double rms = std::sqrt(squares / static_cast<double>(x.size()));
-        if (noise / (std::sqrt(weight) * period) < noise_of_a_slope * rms) break;
-    }
-    return out;
-}
 
 /// Every product of the form, sample by sample; delayed forms are one sample late and start at the second row.
 std::vector<std::vector<double>> products(const model::Model& model, const Bench& bench, const equation::OperatorForm& form, Rows rows) {
