@@ -14,8 +14,8 @@ namespace algest::lab {
 namespace {
 
 constexpr double most_of_it = 0.6;            ///< error against the nominal model's, for a name far from the floor
-constexpr double too_far_for_noise = 2.0;     ///< gap over floor beyond which it takes more than the process's own noise,
-constexpr double nearly_nothing = 0.1;        ///< unless this little of the gap is left
+constexpr double too_far_for_noise = 2.0;     ///< gap over floor beyond which it takes more than the process's own noise
+constexpr double nearly_nothing = 0.1;        ///< of the gap: so little is left that the name holds, whatever the rest is
 constexpr double no_noise = 50;               ///< F statistic of the weak form that noise does not reach
 constexpr double near_enough = 0.05;          ///< of the driving side of an equation: a residual that an engineer would be glad of
 constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
@@ -53,7 +53,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor) {
-        if (structured(bench, best) || (best.score.gap() > too_far_for_noise && left > nearly_nothing)) return Verdict::unknown;
+        if (left > nearly_nothing && (best.score.gap() > too_far_for_noise || structured(bench, best))) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;

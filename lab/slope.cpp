@@ -9,7 +9,7 @@ namespace algest::lab {
 std::vector<double> slopes(const std::vector<double>& x, double noise, double period) {
     constexpr double noise_of_a_slope = 0.03;   // of its rms
     std::vector<double> out;
-    for (const std::size_t reach : {2, 4, 8, 16, 32, 64}) {
+    for (const std::size_t reach : {2U, 4U, 8U, 16U, 32U, 64U}) {
         double weight = 0;   // sum of k^2 over the samples on both sides
         for (std::size_t k = 1; k <= reach; ++k) weight += 2.0 * static_cast<double>(k * k);
         out.assign(x.size(), 0.0);

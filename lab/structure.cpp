@@ -76,8 +76,8 @@ std::vector<std::vector<double>> features(const std::vector<Series>& series, Row
     for (const Series& s : series) add(s, [](double x) { return x * x * x; }, 0);
     for (const Series& s : series) add(s, sign, 0);
     for (const Series& s : series) add(s, [](double x) { return x * x; }, 0);
-    for (const std::size_t lag : {1, 4, 16, 64}) for (const Series& s : series) if (!s.moves) add(s, same, lag);
-    for (const std::size_t windows : {1, 2, 4}) {   // what remembers, such as hysteresis, shows against the past
+    for (const std::size_t lag : {1U, 4U, 16U, 64U}) for (const Series& s : series) if (!s.moves) add(s, same, lag);
+    for (const std::size_t windows : {1U, 2U, 4U}) {   // what remembers, such as hysteresis, shows against the past
         for (const Series& s : series) {
             if (s.moves) add(s, same, windows * window);
             add(s, sign, windows * window);
