@@ -159,4 +159,15 @@ std::string amended(const std::string& text, const model::Model& model, const Am
     return out + own_tables;
 }
 
+std::string amended_in_turn(const std::string& text, const std::string& path, const std::vector<Amendment>& amendments) {
+    std::string out = text;
+    for (const Amendment& a : amendments) {
+        Diagnostics quiet;
+        const auto model = model::read_from_text(out, path, false, quiet);
+        if (!model) return "";
+        out = amended(out, *model, a);
+    }
+    return out;
+}
+
 }  // namespace algest::lab

@@ -37,4 +37,8 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
 /// last of their table, or into a table of their own at the end of the file.
 std::string amended(const std::string& text, const model::Model& model, const Amendment& amendment);
 
+/// The text with several amendments in turn, each of a model that has the ones before. path: of the model, for messages. Empty where one of
+/// them leaves no model.
+std::string amended_in_turn(const std::string& text, const std::string& path, const std::vector<Amendment>& amendments);
+
 }  // namespace algest::lab

@@ -68,17 +68,14 @@ void tell_apart(const Selection& selection, const std::vector<Effect>& effects, 
 
 /// The nominal text amended once more, new parameters starting at what the fit found.
 std::string text_with_fitted_values(const Variant& nominal, const Variant& best) {
-    std::string text = nominal.text;
-    for (Amendment a : best.amendments) {
+    std::vector<Amendment> fitted = best.amendments;
+    for (Amendment& a : fitted) {
         for (NewName& n : a.names) {
             const int p = best.model.parameter_index(n.name);
             if (p >= 0) n.value = best.fit.parameters[static_cast<std::size_t>(p)];
         }
-        Diagnostics quiet;
-        const auto model = model::read_from_text(text, nominal.model.path, false, quiet);
-        if (model) text = amended(text, *model, a);
     }
-    return text;
+    return amended_in_turn(nominal.text, nominal.model.path, fitted);
 }
 
 /// Fits the nominal model and looks for what it lacks, by the yardstick of the bench.

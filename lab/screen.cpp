@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "lab/golden_section.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
@@ -17,7 +18,6 @@ constexpr double least_share = 0.1;               ///< of the free run's error, 
 constexpr double least_of_its_own = 1e-4;         ///< of an effect's slope that no parameter of the model makes
 constexpr double probe = 0.02;                    ///< of what drives an equation
 constexpr std::size_t lines_that_are_tried = 2;   ///< of each spectrum
-constexpr int steps_of_sharpening = 12;           ///< 0.6^12: to 1/300 of a line's width
 constexpr double price_of_a_scan = 1.5;   ///< a scan finds something in any noise
 
 std::vector<double> scan_values(const EffectScan& scan) {
@@ -125,31 +125,26 @@ private:
             if (!form) continue;
             const double spacing = static_cast<double>(form->centre.at(1) - form->centre.at(0)) * base_.bench.drive.period;
             const Eigen::VectorXd r = weak_residual(*form, weak_fit(*form, base_.fit.parameters).parameters);
-            for (const SpectralLine& line : spectral_lines(r, lines_that_are_tried)) out.push_back(line.step / spacing);
+            for (const SpectralLine& line : spectral_lines(r, lines_that_are_tried)) if (is_new(binding, line.step / spacing)) out.push_back(line.step / spacing);
         }
         return out;
+    }
+
+    /// False within four line widths of a wave that the base has already: what is left there is that wave's own inaccuracy.
+    bool is_new(const Binding& binding, double frequency) const {
+        const double width = M_PI / (static_cast<double>(bench_.parts().fitted.size()) * base_.bench.drive.period);
+        for (const Amendment& a : base_.amendments) {
+            if (a.effect != binding.effect->name || a.equations != binding.equations) continue;
+            for (const NewName& n : a.names) if (n.constant && std::abs(n.value - frequency) < 4 * width) return false;
+        }
+        return true;
     }
 
     /// The frequency near a line at which the weak form explains most: golden section over half a line's width on both sides.
     Candidate sharpened(Candidate c) {
         const double width = M_PI / (static_cast<double>(bench_.parts().fitted.size()) * base_.bench.drive.period);
-        double low = c.scan - 0.5 * width;
-        double high = c.scan + 0.5 * width;
-        constexpr double golden = 0.6180339887498949;
-        Candidate a = weigh(c.binding, high - golden * (high - low));
-        Candidate b = weigh(c.binding, low + golden * (high - low));
-        for (int step = 0; step < steps_of_sharpening; ++step) {
-            if (a.strength > b.strength) {
-                high = b.scan;
-                b = std::move(a);
-                a = weigh(c.binding, high - golden * (high - low));
-            } else {
-                low = a.scan;
-                a = std::move(b);
-                b = weigh(c.binding, low + golden * (high - low));
-            }
-        }
-        Candidate& best = a.strength > b.strength ? a : b;
+        const double there = least_by_golden_section([&](double frequency) { return -weigh(c.binding, frequency).strength; }, c.scan - 0.5 * width, c.scan + 0.5 * width);
+        Candidate best = weigh(c.binding, there);
         best.strength /= price_of_a_scan;
         return best.strength > c.strength ? best : c;
     }

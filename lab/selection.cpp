@@ -5,7 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "lab/golden_section.hpp"
 #include "lab/screen.hpp"
+#include "lab/weak_form.hpp"
 
 namespace algest::lab {
 
@@ -45,6 +47,16 @@ double criterion(const Variant& v, const Variant& nominal) {
     return log_gain(v.score, nominal.score) - added_parameters(v) * std::log(std::max(rows, 2.0));
 }
 
+/// Parameters of v's model as another variant's fit has them; initial values for those that it lacks.
+std::vector<double> carried_over(const Variant& v, const Variant& from) {
+    std::vector<double> out;
+    for (const model::Parameter& p : v.model.parameters) {
+        const int old = from.model.parameter_index(p.name);
+        out.push_back(old >= 0 ? from.fit.parameters[static_cast<std::size_t>(old)] : exact::nearest(*p.initial, plan::Scalar::float64));
+    }
+    return out;
+}
+
 std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, const Candidate& c) {
     Amendment a = amendment(c.binding, base.model, c.scan);
     const auto probe = bench.runnable(amended(base.text, base.whole, a));
@@ -60,12 +72,7 @@ std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, con
     Diagnostics quiet;
     auto v = bench.prepare(amended(base.text, base.whole, a), std::move(amendments), quiet);
     if (!v) return std::nullopt;
-    std::vector<double> carried;   // the base's parameters, the new ones beside them
-    for (const model::Parameter& p : v->model.parameters) {
-        const int old = base.model.parameter_index(p.name);
-        carried.push_back(old >= 0 ? base.fit.parameters[static_cast<std::size_t>(old)] : exact::nearest(*p.initial, plan::Scalar::float64));
-    }
-    bench.fit_and_score(*v, carried, base.fit.initial);
+    bench.fit_and_score(*v, carried_over(*v, base), base.fit.initial);
     return v;
 }
 
@@ -84,27 +91,49 @@ bool indistinguishable(const Variant& best, const Variant& other) {
     return ratio < alike || (ratio < clearly_worse && significance(best.score, other.score) < surely_worse);
 }
 
+/// With every scanned frequency placed anew beside the other effects: it was found before they were there.
+Variant sharpened(Workbench& bench, Variant best, const Variant& nominal, const std::vector<Effect>& effects) {
+    const Rows rows = bench.parts().fitted;
+    for (std::size_t k = 0; k < best.amendments.size(); ++k) {
+        const auto effect = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == best.amendments[k].effect; });
+        if (effect->scans.empty() || !effect->scans[0].spectrum || best.amendments.size() < 2) continue;
+        std::vector<Amendment> moved = best.amendments;
+        const auto frequency = std::find_if(moved[k].names.begin(), moved[k].names.end(), [](const NewName& n) { return n.constant; });
+        const auto residual = [&](double value) {
+            frequency->value = value;
+            const auto model = bench.runnable(amended_in_turn(nominal.text, bench.path(), moved));
+            double sum = 0;
+            for (std::size_t e = 0; model && e < model->equations.size(); ++e) {
+                for (const int intervals : weak_intervals(rows)) {
+                    const auto form = weak_form(*model, best.bench, e, rows, intervals);
+                    if (form) sum += std::log(std::max(weak_fit(*form, best.fit.parameters).residual, 1e-300));
+                }
+            }
+            return sum;
+        };
+        const double width = M_PI / (static_cast<double>(rows.size()) * best.bench.drive.period);
+        const double there = least_by_golden_section(residual, frequency->value - 0.5 * width, frequency->value + 0.5 * width);
+        frequency->value = there;
+        Diagnostics quiet;
+        auto v = bench.prepare(amended_in_turn(nominal.text, bench.path(), moved), moved, quiet);
+        if (!v) continue;
+        bench.fit_and_score(*v, carried_over(*v, best), best.fit.initial);
+        if (v->score.nrmse < best.score.nrmse) best = std::move(*v);
+    }
+    return best;
+}
+
 /// Without every effect whose absence is not noticed.
 Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
     for (bool changed = true; changed && best.amendments.size() > 1;) {
         changed = false;
         for (std::size_t without = 0; without < best.amendments.size() && !changed; ++without) {
-            std::string text = nominal.text;
-            std::vector<Amendment> kept;
-            std::optional<Variant> v;
+            std::vector<Amendment> kept = best.amendments;
+            kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(without));
             Diagnostics quiet;
-            for (std::size_t k = 0; k < best.amendments.size(); ++k) {
-                if (k == without) continue;
-                const auto model = model::read_from_text(text, bench.path(), false, quiet);
-                if (!model) break;
-                text = amended(text, *model, best.amendments[k]);
-                kept.push_back(best.amendments[k]);
-            }
-            if (kept.size() + 1 == best.amendments.size()) v = bench.prepare(text, kept, quiet);
+            auto v = bench.prepare(amended_in_turn(nominal.text, bench.path(), kept), kept, quiet);
             if (!v) continue;
-            std::vector<double> carried;
-            for (const model::Parameter& p : v->model.parameters) carried.push_back(best.fit.parameters[static_cast<std::size_t>(best.model.parameter_index(p.name))]);
-            bench.fit_and_score(*v, carried, best.fit.initial);
+            bench.fit_and_score(*v, carried_over(*v, best), best.fit.initial);
             if (worth_it(best.score, v->score)) continue;
             best = std::move(*v);
             changed = true;
@@ -171,8 +200,9 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
             }
             if (next.size() < bases && fitted[k].score.nrmse < a_base_within * top.score.nrmse) next.push_back(fitted[k]);
         }
-        out.best = top;
+        out.best = sharpened(bench, top, nominal, effects);
         beside = std::move(next);
+        beside[0] = out.best;
         if (out.best.score.gap() <= enough) break;
     }
     const std::size_t before = out.best.amendments.size();
