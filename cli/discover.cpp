@@ -61,6 +61,7 @@ ordered_json discovery_json(const lab::Discovery& d, const std::string& model_fi
     for (const auto& e : d.effects) out["effects"].push_back(effect_json(e));
     out["alternatives"] = d.alternatives;
     out["experiments"] = d.experiments;
+    out["doubts"] = d.doubts;
     out["where"] = ordered_json::array();
     for (const auto& w : d.where) out["where"].push_back({{"equation", w.equation}, {"share", w.share}, {"from_s", w.from_s}, {"to_s", w.to_s}, {"region", w.region}});
     out["outputs"] = ordered_json::array();
@@ -92,6 +93,34 @@ std::string discovery_text(const lab::Discovery& d, const std::string& report_fi
     return out;
 }
 
+struct OutputFiles {
+    std::string before;
+    std::string after;
+    std::string model;
+    std::string patch;
+    std::string report;
+};
+
+OutputFiles output_files(const DiscoverOptions& options) {
+    const std::filesystem::path directory = options.directory;
+    const std::string stem = std::filesystem::path(options.model).stem().string();
+    const auto in = [&](const std::string& name) { return (directory / name).string(); };
+    return {in("before.csv"), in("after.csv"), in(stem + ".toml"), in(stem + ".patch"), in("report.html")};
+}
+
+/// False, and an error, where an output would take the place of the model or the recording.
+bool keeps_inputs(const OutputFiles& files, const DiscoverOptions& options, Diagnostics& diagnostics) {
+    for (const std::string& input : {options.model, options.recording}) {
+        for (const std::string& output : {files.before, files.after, files.model, files.patch, files.report}) {
+            std::error_code error;
+            if (!std::filesystem::equivalent(input, output, error)) continue;
+            diagnostics.error(input, {}, "would be overwritten by a file of the same name in -o " + options.directory, "choose another folder for -o");
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 int discover(const DiscoverOptions& options) {
@@ -108,6 +137,9 @@ int discover(const DiscoverOptions& options) {
     }
     if (!text || !recording || diagnostics.has_errors()) return fail(diagnostics, options.json);
 
+    const OutputFiles files = output_files(options);
+    if (!keeps_inputs(files, options, diagnostics)) return fail(diagnostics, options.json);
+
     const auto found = [&] {
         ProgressLine progress("discover");
         return lab::discover(*text, options.model, *recording, effects, stretches, diagnostics, [&](const std::string&, double share) { progress.show(share); });
@@ -115,30 +147,22 @@ int discover(const DiscoverOptions& options) {
     if (!found) return fail(diagnostics, options.json);
     const auto model = model::read_from_text(*text, options.model, false, diagnostics);
 
-    const std::filesystem::path directory = options.directory;
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    const std::string stem = std::filesystem::path(options.model).stem().string();
     const bool amended = found->model_text != *text;
-    const std::string model_file = amended ? (directory / (stem + ".toml")).string() : "";
-    const std::string patch_file = amended ? (directory / (stem + ".patch")).string() : "";
-    bool written = lab::write_file((directory / "before.csv").string(), lab::run_csv(*model, *recording, found->before), diagnostics) &&
-                   lab::write_file((directory / "after.csv").string(), lab::run_csv(*model, *recording, found->after), diagnostics);
-    if (written && amended) {
-        written = lab::write_file(patch_file, generator::unified_diff(options.model, *text, options.model, found->model_text), diagnostics) &&
-                  lab::write_file(model_file, found->model_text, diagnostics);
-        if (written && options.apply) written = lab::write_file(options.model, found->model_text, diagnostics);
-    }
-    const std::string report_file = (directory / "report.html").string();
-    if (written) {
-        const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
-        const lab::ReportFiles files{options.model, options.recording, options.directory, model_file, patch_file, patch};
-        written = lab::write_file(report_file, lab::report_html(*found, *model, *recording, files, lab::gnuplot, diagnostics), diagnostics);
-    }
+    const std::string model_file = amended ? files.model : "";
+    const std::string patch_file = amended ? files.patch : "";
+    const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
+    std::error_code error;
+    std::filesystem::create_directories(options.directory, error);
+    const auto write = [&](const std::string& path, const std::string& content) { return lab::write_file(path, content, diagnostics); };
+    const lab::ReportFiles named{options.model, options.recording, options.directory, model_file, patch_file, patch};
+    bool written = write(files.before, lab::run_csv(*model, *recording, found->before)) && write(files.after, lab::run_csv(*model, *recording, found->after));
+    if (written && amended) written = write(patch_file, patch) && write(model_file, found->model_text);
+    written = written && write(files.report, lab::report_html(*found, *model, *recording, named, lab::gnuplot, diagnostics));
+    if (written && amended && options.apply) written = write(options.model, found->model_text);   // the user's own file last, when all else stands
     if (!written) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);
-    if (options.json) print_json(discovery_json(*found, model_file, patch_file, report_file));
-    else print(discovery_text(*found, report_file));
+    if (options.json) print_json(discovery_json(*found, model_file, patch_file, files.report));
+    else print(discovery_text(*found, files.report));
     return exit_done;
 }
 

@@ -81,6 +81,16 @@ std::size_t behind_last(const std::string& text, const Names& names) {
     return end == std::string::npos ? text.size() : end + 1;
 }
 
+/// A file whose lines end with CRLF keeps doing so.
+std::string with_crlf(const std::string& text) {
+    std::string out;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (text[k] == '\n' && (k == 0 || text[k - 1] != '\r')) out += '\r';
+        out += text[k];
+    }
+    return out;
+}
+
 }  // namespace
 
 Amendment amendment(const Binding& binding, const model::Model& model, double scan) {
@@ -156,7 +166,8 @@ std::string amended(const std::string& text, const model::Model& model, const Am
         k = same;
     }
     if (!own_tables.empty() && !out.empty() && out.back() != '\n') out += "\n";
-    return out + own_tables;
+    out += own_tables;
+    return text.find("\r\n") == std::string::npos ? out : with_crlf(out);
 }
 
 std::string amended_in_turn(const std::string& text, const std::string& path, const std::vector<Amendment>& amendments) {

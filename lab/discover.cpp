@@ -177,6 +177,7 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
         out.after = out.before;
         for (OutputGap& o : out.outputs) o.after = o.before;
     }
+    if (amended != nullptr && !nearer(out.outputs)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
     out.residuals = residuals(bench, *nominal, amended);
     out.where = locate(bench, *nominal, out.residuals);
     out.parameters_before = parameters(*nominal);

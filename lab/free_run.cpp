@@ -17,7 +17,7 @@ using Stepper = boost::numeric::odeint::runge_kutta_dopri5<State>;
 
 constexpr double largest_excursion = 1e6;      ///< times the scale: diverged
 constexpr int most_steps_in_a_span = 20000;    ///< stiffer than that is a diverged run too,
-constexpr std::size_t most_steps_a_sample = 100;   ///< and so is more than this on average
+constexpr std::size_t most_steps_a_sample = 30;    ///< and so is more than this on average
 
 constexpr double layer = 2e-2;                 ///< half the width of a layered relay, in typical sizes of its argument: the ripple of a phase current
 

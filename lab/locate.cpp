@@ -72,6 +72,13 @@ std::string in_words(const Region& region, const model::Model& model) {
 
 std::vector<double> as_vector(const Eigen::VectorXd& r) { return {r.data(), r.data() + r.size()}; }
 
+/// What a window makes of a constant 1: residuals over it are means in the equation's own unit, late and early samples counting less.
+double window_weight(const Variant& v, std::size_t e) {
+    double sum = 0;
+    for (const double w : row_weights(v.model, e, intervals_of_a_residual)) sum += w;
+    return sum;
+}
+
 /// Parameters of one equation that fit it best on the training rows.
 std::vector<double> own_parameters(const Workbench& bench, const Variant& v, std::size_t e) {
     const auto form = weak_form(v.model, v.bench, e, bench.parts().train, intervals_of_a_residual);
@@ -90,8 +97,8 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
         EquationResidual r{nominal.model.equations[e].name, spelled(model::unit_of_equation(nominal.model, nominal.model.equations[e])), {}, {}, {}, 0, {}, {}, {}, {}};
         for (const std::size_t row : form->centre) r.t.push_back(bench.recording().t[row]);
         const Eigen::VectorXd before = weak_residual(*form, parameters);
-        r.before = as_vector(before);
-        r.noise = weak_noise(nominal.model, nominal.bench, e, bench.parts().train, intervals_of_a_residual, parameters, noise_by_signal(nominal.model, nominal.bench));
+        r.before = as_vector(before / window_weight(nominal, e));
+        r.noise = weak_noise(nominal.model, nominal.bench, e, bench.parts().train, intervals_of_a_residual, parameters, noise_by_signal(nominal.model, nominal.bench)) / window_weight(nominal, e);
         int against = region_of(nominal, form->centre, before).signal;
         for (const Amendment& a : amended != nullptr ? amended->amendments : std::vector<Amendment>()) {
             const bool enters = std::any_of(a.equations.begin(), a.equations.end(), [&](std::size_t k) { return nominal.whole.equations[k].name == r.equation; });
@@ -107,7 +114,7 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
         const auto with = amended != nullptr ? weak_form(amended->model, amended->bench, e, all, intervals_of_a_residual) : std::nullopt;
         if (with) {
             const std::vector<double> own = own_parameters(bench, *amended, e);
-            r.after = as_vector(weak_residual(*with, own));
+            r.after = as_vector(weak_residual(*with, own) / window_weight(nominal, e));
             // What the added terms say: the residual without them, less the residual with them.
             std::vector<double> without = own;
             bool enters = false;
@@ -115,7 +122,7 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
                 for (const std::size_t k : a.equations) enters = enters || nominal.whole.equations[k].name == r.equation;
                 for (const NewName& n : a.names) if (!n.constant) without[static_cast<std::size_t>(amended->model.parameter_index(n.name))] = 0;
             }
-            if (enters && !r.x.empty()) r.law = as_vector(weak_residual(*with, without) - weak_residual(*with, own));
+            if (enters && !r.x.empty()) r.law = as_vector((weak_residual(*with, without) - weak_residual(*with, own)) / window_weight(nominal, e));
         }
         out.push_back(std::move(r));
     }

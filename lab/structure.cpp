@@ -6,10 +6,7 @@
 #include <cmath>
 
 #include "algest/dot.hpp"
-#include "generator/annihilator.hpp"
-#include "generator/kernel.hpp"
 #include "lab/noise.hpp"
-#include "lab/roles.hpp"
 #include "lab/slope.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
@@ -146,7 +143,6 @@ bool structured(const Workbench& bench, const Variant& v) {
     const Bench simulated = simulated_bench(bench, v);
     const std::vector<Series> series = series_of(v);
     for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
-        const int n = std::max(moved(v.model, v.model.equations[e]).order, 1);
         for (const int intervals : weak_intervals(rows)) {
             const auto form = weak_form(v.model, v.bench, e, rows, intervals);
             if (!form) continue;
@@ -157,7 +153,7 @@ bool structured(const Workbench& bench, const Variant& v) {
             const double noise = weak_noise(v.model, v.bench, e, rows, intervals, v.fit.parameters, noise_by_signal(v.model, v.bench));
             if (r.norm() < above_noise * noise * std::sqrt(static_cast<double>(r.size()))) continue;
             const auto candidates = features(series, rows, static_cast<std::size_t>(intervals) + 1, static_cast<std::size_t>(std::max<Eigen::Index>(r.size() / (2 * windows_a_feature), 1)) - 1);
-            const auto weights = kernel::weights(annihilator::kernel(0, 1, {n, 0}), intervals, plan::Hold::linear, plan::Quadrature::exact, plan::Scalar::float64);
+            const auto weights = row_weights(v.model, e, intervals);
             Eigen::MatrixXd X(r.size(), static_cast<Eigen::Index>(candidates.size()) + 1);
             X.col(0).setOnes();
             for (std::size_t f = 0; f < candidates.size(); ++f) {

@@ -11,6 +11,7 @@
 #include "generator/tape_builder.hpp"
 #include "lab/noise.hpp"
 #include "lab/polynomial_value.hpp"
+#include "lab/roles.hpp"
 #include "lab/slope.hpp"
 
 namespace algest::lab {
@@ -118,6 +119,11 @@ std::vector<int> weak_intervals(const Rows& rows) {
     std::vector<int> out;
     for (const int intervals : {16, 64, 256, 1024}) if (out.empty() || rows.size() > 20 * static_cast<std::size_t>(intervals)) out.push_back(intervals);
     return out;
+}
+
+std::vector<double> row_weights(const model::Model& model, std::size_t equation, int intervals) {
+    const int n = std::max(moved(model, model.equations[equation]).order, 1);
+    return kernel::weights(annihilator::kernel(0, 1, {n, 0}), intervals, plan::Hold::linear, plan::Quadrature::exact, plan::Scalar::float64);
 }
 
 std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {

@@ -24,6 +24,9 @@ struct WeakForm {
 /// Window lengths, in intervals, that are worth trying on so many rows: noise wants long windows, fast dynamics short ones.
 std::vector<int> weak_intervals(const Rows& rows);
 
+/// Weights, oldest sample first, that the rows of an equation give to what is not differentiated, held linearly.
+std::vector<double> row_weights(const model::Model& model, std::size_t equation, int intervals);
+
 /// Nullopt where a signal of the equation is not measured, or the rows are fewer than two windows. intervals: of a window.
 std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals);
 
