@@ -96,7 +96,7 @@ void confirm(const Workbench& bench, const Variant& nominal, const Variant* amen
         const std::vector<double>& measured = nominal.bench.measured[s];
         double squares = 0;
         for (std::size_t row = test.begin; row < test.end; ++row) {
-            const double miss = row < run.samples ? measured[row] - run.signals[s][row] : 1e3 * size_of(measured);
+            const double miss = row < run.samples ? measured[row] - run.signals[s][row] : error_of_divergence * size_of(measured);
             squares += miss * miss;
         }
         return std::sqrt(squares / static_cast<double>(test.size())) / size_of(measured);

@@ -12,8 +12,6 @@ namespace algest::lab {
 
 namespace {
 
-constexpr double error_of_divergence = 1e3;   ///< sizes
-
 /// What the optimiser moves: scaled free parameters, then scaled initial values of measured states.
 struct Variables {
     std::vector<std::size_t> parameters;

@@ -16,6 +16,9 @@ struct Rows {
     std::size_t size() const { return end - begin; }
 };
 
+/// Error, in sizes of the measured signal, that counts for a run that has diverged, and the most that counts at all.
+constexpr double error_of_divergence = 1e3;
+
 /// What a fit starts from and looks at.
 struct FitStart {
     std::vector<double> parameters;   ///< by the model's parameters

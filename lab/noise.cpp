@@ -22,10 +22,9 @@ std::vector<double> noise_by_signal(const model::Model& model, const Bench& benc
         const model::Signal& signal = model.signals[s];
         const double noise = signal.noise ? exact::nearest(*signal.noise, plan::Scalar::float64) : 0.0;
         const double step = signal.resolution ? exact::nearest(*signal.resolution, plan::Scalar::float64) : 0.0;
-        const bool moves = std::find(bench.system.moving.begin(), bench.system.moving.end(), static_cast<int>(s)) != bench.system.moving.end();
         if (bench.measured[s].empty()) out.push_back(0);
         else if (signal.noise || signal.resolution) out.push_back(std::sqrt(noise * noise + step * step / 12.0));   // rounding: uniform over a step
-        else out.push_back(moves ? roughness(bench.measured[s]) : 0);
+        else out.push_back(moves(bench.system, s) ? roughness(bench.measured[s]) : 0);
     }
     return out;
 }

@@ -262,6 +262,8 @@ private:
 
 }  // namespace
 
+bool moves(const OdeSystem& system, std::size_t signal) { return std::find(system.moving.begin(), system.moving.end(), static_cast<int>(signal)) != system.moving.end(); }
+
 std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics) { return Compiler(model, diagnostics).run(); }
 
 }  // namespace algest::lab

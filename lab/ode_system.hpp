@@ -49,6 +49,9 @@ struct OdeSystem {
     bool constant_mass = true;             ///< the factors of the highest derivatives depend on parameters alone
 };
 
+/// True when a signal (index into the model's) has an equation of its own.
+bool moves(const OdeSystem& system, std::size_t signal);
+
 /// Compiles the equations. Complains (bad input) where there are no equations of motion, where an equation has no derivative of its
 /// own to give, where a highest derivative stands inside a function, or where an input is differentiated.
 std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics);

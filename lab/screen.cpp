@@ -132,7 +132,7 @@ private:
 
     /// False within four line widths of a wave that the base has already: what is left there is that wave's own inaccuracy.
     bool is_new(const Binding& binding, double frequency) const {
-        const double width = M_PI / (static_cast<double>(bench_.parts().fitted.size()) * base_.bench.drive.period);
+        const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
         for (const Amendment& a : base_.amendments) {
             if (a.effect != binding.effect->name || a.equations != binding.equations) continue;
             for (const NewName& n : a.names) if (n.constant && std::abs(n.value - frequency) < 4 * width) return false;
@@ -142,7 +142,7 @@ private:
 
     /// The frequency near a line at which the weak form explains most: golden section over half a line's width on both sides.
     Candidate sharpened(Candidate c) {
-        const double width = M_PI / (static_cast<double>(bench_.parts().fitted.size()) * base_.bench.drive.period);
+        const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
         const double there = least_by_golden_section([&](double frequency) { return -weigh(c.binding, frequency).strength; }, c.scan - 0.5 * width, c.scan + 0.5 * width);
         Candidate best = weigh(c.binding, there);
         best.strength /= price_of_a_scan;

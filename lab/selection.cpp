@@ -7,6 +7,7 @@
 
 #include "lab/golden_section.hpp"
 #include "lab/screen.hpp"
+#include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
 namespace algest::lab {
@@ -111,7 +112,7 @@ Variant sharpened(Workbench& bench, Variant best, const Variant& nominal, const 
             }
             return sum;
         };
-        const double width = M_PI / (static_cast<double>(rows.size()) * best.bench.drive.period);
+        const double width = line_width(rows.size(), best.bench.drive.period);
         const double there = least_by_golden_section(residual, frequency->value - 0.5 * width, frequency->value + 0.5 * width);
         frequency->value = there;
         Diagnostics quiet;

@@ -32,6 +32,8 @@ double share_at(const Eigen::VectorXd& r, double step, double power) {
 
 }  // namespace
 
+double line_width(std::size_t samples, double period) { return M_PI / (static_cast<double>(samples) * period); }
+
 std::vector<SpectralLine> spectral_lines(const Eigen::VectorXd& residual, std::size_t most) {
     const double power = residual.squaredNorm();
     if (!(power > 0) || residual.size() < 2 * lowest) return {};

@@ -7,6 +7,9 @@
 
 namespace algest::lab {
 
+/// rad/s: the width of a line in `samples` samples, half a wave over all of them.
+double line_width(std::size_t samples, double period);
+
 struct SpectralLine {
     double step;    ///< rad from one value of the residual to the next, 0 to pi
     double share;   ///< of the residual's power

@@ -42,11 +42,11 @@ std::vector<Series> series_of(const Variant& v) {
     for (std::size_t s = 0; s < v.bench.measured.size(); ++s) {
         const std::vector<double>& m = v.bench.measured[s];
         if (m.empty()) continue;
-        const bool moves = std::find(v.bench.system.moving.begin(), v.bench.system.moving.end(), static_cast<int>(s)) != v.bench.system.moving.end();
-        add(m, moves);
+        const bool own = moves(v.bench.system, s);
+        add(m, own);
         const bool has_speed = std::any_of(v.bench.system.states.begin(), v.bench.system.states.end(), [&](const StateEntry& e) { return e.signal == static_cast<int>(s) && e.order == 1; });
         if (has_speed) add(slopes(m, noise[s], v.bench.drive.period), true);
-        for (std::size_t other = 0; other < s && moves; ++other) {   // the twist of a shaft, the stroke of a spring between two bodies
+        for (std::size_t other = 0; other < s && own; ++other) {   // the twist of a shaft, the stroke of a spring between two bodies
             const std::vector<double>& o = v.bench.measured[other];
             if (o.empty() || v.model.signals[other].unit != v.model.signals[s].unit || v.model.signals[s].unit.empty()) continue;
             std::vector<double> difference = m;

@@ -19,7 +19,6 @@ constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: fa
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
 constexpr int search_iterations = 12;
 constexpr std::size_t rows_of_an_undriven_run = 4000;
-constexpr double error_of_divergence = 1e3;     ///< sizes
 constexpr double lasting = 0.3;                 ///< share of a disturbed start that is still there a third of the way on: it does not fade
 constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations, shorter where they would be too few
 constexpr std::size_t least_windows = 100;      ///< half overlapping, that score an equation
