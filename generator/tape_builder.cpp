@@ -71,6 +71,12 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
             const auto relay = inputs_.relay.find(f.get());
             if (relay != inputs_.relay.end()) return add(Op::input, relay->second);
             const int a = formula(f->arguments[0], delayed);
+            const auto layer = inputs_.layer.find(f.get());
+            if (layer != inputs_.layer.end()) {
+                const int ramp = add(Op::div, a, add(Op::input, layer->second));
+                const int below = add(Op::min, ramp, constant(1));
+                return add(Op::max, below, constant(-1));
+            }
             return add(op_of_function(f->name), a, f->arguments.size() > 1 ? formula(f->arguments[1], delayed) : -1);
         }
         case Kind::power: {

@@ -16,6 +16,7 @@ struct TapeInputs {
     std::vector<int> parameter = {};                       ///< by the model's parameters; empty: they may not occur
     std::map<std::pair<int, int>, int> derivative = {};    ///< (signal, order); one that is not here is left to the parabola filter
     std::map<const formula::Node*, int> relay = {};        ///< calls of sgn() whose value is an input; none else
+    std::map<const formula::Node*, int> layer = {};        ///< calls of sgn() that rise from -1 to 1 over twice the width that is an input; none else
 };
 
 class TapeBuilder {

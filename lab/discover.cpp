@@ -81,9 +81,10 @@ std::string text_with_fitted_values(const Variant& nominal, const Variant& best)
 /// Fits the nominal model and looks for what it lacks, by the yardstick of the bench.
 Selection search(Workbench& bench, Variant& nominal, const std::vector<double>& declared, const std::vector<Effect>& effects, const StepReport& progress) {
     if (progress) progress("fit the nominal model", 0.02);
+    bench.begin_search();
     bench.fit_and_score(nominal, declared, nominal.bench.initial);
-    if (nominal.score.gap() <= at_the_floor) return {nominal, {}, {}};
-    return select_effects(bench, nominal, effects, at_the_floor, progress);
+    if (nominal.score.gap() <= at_the_floor) return {nominal, {}, {}, false};
+    return select_effects(bench, nominal, effects, progress);
 }
 
 /// The test rows, once: before and after.
@@ -179,7 +180,7 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     }
     if (amended != nullptr && !nearer(out.outputs)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
     out.residuals = residuals(bench, *nominal, amended);
-    out.where = locate(bench, *nominal, out.residuals);
+    out.where = locate(bench, *nominal, out.residuals, out.before);
     out.parameters_before = parameters(*nominal);
     if (stands) out.parameters_after = parameters(selection.best);
     out.model_text = stands ? text_with_fitted_values(*nominal, selection.best) : model_text;

@@ -84,6 +84,18 @@ private:
     std::size_t count_;   ///< rows that are compared
 };
 
+/// Ends a fit, with the best it has, once the effort that it shares is used up.
+class StopWhenUsedUp : public ceres::IterationCallback {
+public:
+    explicit StopWhenUsedUp(const Effort* effort) : effort_(effort) {}
+    ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+        return effort_ != nullptr && effort_->used_up() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    }
+
+private:
+    const Effort* effort_;
+};
+
 Variables choose_variables(const model::Model& model, const Bench& bench, const FitStart& start) {
     Variables out;
     for (std::size_t p = 0; p < model.parameters.size(); ++p) {
@@ -191,6 +203,8 @@ Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     options.function_tolerance = start.tolerance;
     options.parameter_tolerance = start.tolerance;
     options.num_threads = 1;
+    StopWhenUsedUp stop(bench.options.effort);
+    options.callbacks.push_back(&stop);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
 

@@ -60,7 +60,7 @@ Eigen::MatrixXd output_slopes(const model::Model& model, const Bench& bench, con
 /// Minimises the sum over outputs of the squared error over (size of the measured signal)^2. Parameters stay within the model's
 /// min and max. A run that diverges counts as an error of 1e3 sizes from there on.
 /// Standard deviations are those of the linearised fit, enlarged by the autocorrelation of the residuals.
-/// Cost: (free parameters + fitted initial values + 1) runs an iteration.
+/// Cost: (free parameters + fitted initial values + 1) runs an iteration; it ends early once the bench's effort is used up.
 Fit fit(const model::Model& model, const Bench& bench, const FitStart& start);
 
 }  // namespace algest::lab

@@ -19,10 +19,10 @@ constexpr double largest_excursion = 1e6;      ///< times the scale: diverged
 constexpr int most_steps_in_a_span = 20000;    ///< stiffer than that is a diverged run too,
 constexpr std::size_t most_steps_a_sample = 30;    ///< and so is more than this on average
 
-constexpr double layer = 2e-2;                 ///< half the width of a layered relay, in typical sizes of its argument: the ripple of a phase current
+constexpr double layer_width = 2e-2;           ///< half of it, in typical sizes of its argument: the ripple of a phase current
 
 /// Where a relay stands.
-enum class Mode { negative, holding, positive, layered };
+enum class Mode { negative, holding, positive };
 
 class Run {
 public:
@@ -30,7 +30,7 @@ public:
         : system_(system), drive_(drive), options_(options), inputs_(static_cast<std::size_t>(system.inputs), 0.0),
           values_(system.residual.operations.size()), results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
           mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())),
-          span_(drive.period * static_cast<double>(options.stride)) {
+          residual_(static_cast<Eigen::Index>(system.moving.size())), slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
         for (std::size_t p = 0; p < parameters.size(); ++p) inputs_[static_cast<std::size_t>(system.parameter_input) + p] = parameters[p];
         for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
         scale_ = options.scale;
@@ -56,6 +56,7 @@ public:
             if (!advance(x)) break;
             if (progress && k % 1024 == 0) progress(static_cast<double>(k) / static_cast<double>(drive_.samples));
         }
+        if (options_.effort != nullptr) options_.effort->spent += static_cast<double>(evaluations_) * static_cast<double>(system_.residual.operations.size());
         return out;
     }
 
@@ -94,33 +95,36 @@ private:
         for (const Law& law : system_.laws) keep(law.signal);
     }
 
-    void evaluate() { plan::evaluate<double>(system_.residual, inputs_.data(), nullptr, nullptr, values_.data(), results_.data()); }
+    void evaluate() {
+        ++evaluations_;
+        plan::evaluate<double>(system_.residual, inputs_.data(), nullptr, nullptr, values_.data(), results_.data());
+    }
 
     std::size_t highest_input(std::size_t m) const { return static_cast<std::size_t>(system_.derivative_input[m].back()); }
 
     /// Highest derivatives at the present inputs and relays: residual = r0 + mass * h = 0.
-    Eigen::VectorXd highest() {
+    const Eigen::VectorXd& highest() {
         const std::size_t count = system_.moving.size();
         for (std::size_t m = 0; m < count; ++m) inputs_[highest_input(m)] = 0.0;
         evaluate();
-        Eigen::VectorXd residual(static_cast<Eigen::Index>(count));
-        for (std::size_t m = 0; m < count; ++m) residual[static_cast<Eigen::Index>(m)] = results_[m];
-        if (!factored_ || !system_.constant_mass) {
+        for (std::size_t m = 0; m < count; ++m) residual_[static_cast<Eigen::Index>(m)] = results_[m];
+        if (!inverted_ || !system_.constant_mass) {
             for (std::size_t m = 0; m < count; ++m) {
                 inputs_[highest_input(m)] = 1.0;
                 evaluate();
-                for (std::size_t e = 0; e < count; ++e) mass_(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(m)) = results_[e] - residual[static_cast<Eigen::Index>(e)];
+                for (std::size_t e = 0; e < count; ++e) mass_(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(m)) = results_[e] - residual_[static_cast<Eigen::Index>(e)];
                 inputs_[highest_input(m)] = 0.0;
             }
-            solver_.compute(mass_);
-            factored_ = true;
+            inverse_ = mass_.inverse();
+            inverted_ = true;
         }
-        return solver_.solve(-residual);
+        highest_ = -inverse_.lazyProduct(residual_);   // a few numbers, a million times: no allocation, no blocking
+        return highest_;
     }
 
     /// dx/dt with the relays as they are set.
     void rate_as_set(State& rate) {
-        const Eigen::VectorXd h = highest();
+        const Eigen::VectorXd& h = highest();
         std::size_t i = 0;
         for (std::size_t m = 0; m < system_.moving.size(); ++m) {
             for (int order = 0; order < system_.highest[m]; ++order, ++i) {
@@ -162,32 +166,26 @@ private:
         return up == down ? 0.0 : -(up + down) / (up - down);
     }
 
-    /// The typical size of a layered relay's argument: the largest that one state of its own typical size makes of it.
+    /// The typical size of a layer's argument: the largest that one state of its own typical size makes of it.
     void set_layers() {
-        layer_.assign(modes_.size(), 0.0);
-        for (std::size_t r = 0; r < modes_.size(); ++r) {
-            if (!system_.relays[r].layered) continue;
-            modes_[r] = Mode::layered;
+        for (const Layer& l : system_.layers) {
+            double size = 0;
             for (std::size_t i = 0; i < scale_.size(); ++i) {
                 State x(scale_.size(), 0.0);
                 x[i] = scale_[i];
-                layer_[r] = std::max(layer_[r], layer * std::abs(argument_at(r, x, 0.0)));
+                set_driven(0.0);
+                set_state(x);
+                evaluate();
+                size = std::max(size, std::abs(results_[static_cast<std::size_t>(l.argument)]));
             }
-            if (!(layer_[r] > 0)) layer_[r] = layer;
+            inputs_[static_cast<std::size_t>(l.width)] = layer_width * (size > 0 ? size : 1.0);
         }
     }
 
     /// Sets every relay for the rate at x.
     void set_relays(const State& x) {
-        bool evaluated = false;   // arguments do not depend on relays: one evaluation serves all
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            if (modes_[r] == Mode::layered) {
-                if (!evaluated) evaluate();
-                evaluated = true;
-                relay(r) = std::clamp(relay_argument(r) / layer_[r], -1.0, 1.0);
-            } else if (modes_[r] != Mode::holding) {
-                relay(r) = modes_[r] == Mode::positive ? 1.0 : -1.0;
-            }
+            if (modes_[r] != Mode::holding) relay(r) = modes_[r] == Mode::positive ? 1.0 : -1.0;
         }
         for (std::size_t r = 0; r < modes_.size(); ++r) {
             if (modes_[r] == Mode::holding) relay(r) = std::clamp(holding_value(r, x), -1.0, 1.0);
@@ -216,7 +214,6 @@ private:
     void choose_modes(const State& x) {
         argument_scale_.resize(modes_.size(), 0.0);
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            if (modes_[r] == Mode::layered) continue;
             const double g = argument_at(r, x, 0.0);
             argument_scale_[r] = std::max(argument_scale_[r], std::abs(g));
             if (std::abs(g) > argument_tolerance(r)) modes_[r] = g > 0 ? Mode::positive : Mode::negative;
@@ -241,13 +238,13 @@ private:
 
     /// One step of size h from (x, t in the period); the largest error over the states, relative to the tolerance.
     double attempt(const State& x, double t, double h, State& next) {
-        State error(x.size());
         const auto flow = [&](const State& s, State& out, double at) { rate(s, out, at / span_); };
-        Stepper().do_step(flow, x, t, next, h, error);
+        flow(x, slope_, t);   // afresh: a switch, or a step that was refused, may lie between this step and the last
+        stepper_.do_step(flow, x, slope_, t, next, slope_ahead_, h, error_);
         double largest = 0;
         for (std::size_t i = 0; i < x.size(); ++i) {
             const double size = options_.tolerance * (scale_[i] + std::abs(x[i]));
-            largest = std::max(largest, std::abs(error[i]) / size);
+            largest = std::max(largest, std::abs(error_[i]) / size);
             if (!std::isfinite(next[i])) return std::numeric_limits<double>::infinity();
         }
         return largest;
@@ -256,7 +253,6 @@ private:
     /// The first relay that a step has carried to the other side; -1: none.
     int switched(const State& next, double t) {
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            if (modes_[r] == Mode::layered) continue;
             const double g = argument_at(r, next, t / span_);
             argument_scale_[r] = std::max(argument_scale_[r], std::abs(g));
             const double beyond = modes_[r] == Mode::positive ? -g : modes_[r] == Mode::negative ? g : std::abs(g);
@@ -337,15 +333,21 @@ private:
     std::vector<double> results_;
     std::vector<Mode> modes_;
     Eigen::MatrixXd mass_;
-    Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
-    bool factored_ = false;
+    Eigen::MatrixXd inverse_;   ///< of the mass matrix
+    bool inverted_ = false;
+    Eigen::VectorXd residual_;
+    Eigen::VectorXd highest_;
+    Stepper stepper_;
+    State slope_;
+    State slope_ahead_;
+    State error_;
     std::vector<std::size_t> entry_input_;
     std::vector<double> scale_;
     std::vector<double> argument_scale_;
-    std::vector<double> layer_;   ///< by relay, in its argument's unit; 0: not layered
     double span_;           ///< s, from one kept sample to the next
     std::size_t sample_ = 0;
     std::size_t steps_taken_ = 0;
+    std::size_t evaluations_ = 0;
     double step_ = 0;
 };
 

@@ -8,6 +8,7 @@
 
 #include "lab/noise.hpp"
 #include "lab/structure.hpp"
+#include "lab/weak_form.hpp"
 
 namespace algest::lab {
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double most_of_it = 0.6;            ///< error against the nominal model's, for a name far from the floor
 constexpr double too_far_for_noise = 2.0;     ///< gap over floor beyond which it takes more than the process's own noise
-constexpr double nearly_nothing = 0.1;        ///< of the gap: so little is left that the name holds, whatever the rest is
+constexpr double share_of_white = 0.7;        ///< of the rows, that count as independent ones: autocorrelation of noise alone
 constexpr double no_noise = 50;               ///< F statistic of the weak form that noise does not reach
 constexpr double near_enough = 0.05;          ///< of the driving side of an equation: a residual that an engineer would be glad of
 constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
@@ -41,19 +42,32 @@ double clipped(const std::vector<double>& x) {
 
 bool declares_noise(const model::Signal& s) { return s.noise || s.resolution; }
 
+/// True when every error is as rough as a sensor's noise: then it is noise, however little was declared.
+bool white(const Score& score) {
+    return std::all_of(score.independent.begin(), score.independent.end(), [&](double n) { return n > share_of_white * score.rows; });
+}
+
+/// The equations whose rows cannot be formed, for a signal of theirs is not measured.
+std::vector<std::string> unseen(const Variant& v) {
+    std::vector<std::string> out;
+    for (std::size_t e = 0; e < v.model.equations.size(); ++e) if (!has_weak_form(v.model, v.bench, e)) out.push_back(v.model.equations[e].name);
+    return out;
+}
+
 }  // namespace
 
 Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection) {
     const Variant& best = selection.best;
     if (nominal.score.gap() <= at_the_floor) return Verdict::none;
     const bool spoken_for = std::any_of(selection.evidence.begin(), selection.evidence.end(), [](const Evidence& e) { return e.strength > no_noise; });
-    const auto nothing = [&] { return spoken_for || structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
+    const bool noise_alone = nominal.score.gap() <= too_far_for_noise || white(nominal.score);
+    const auto nothing = [&] { return spoken_for || selection.cut_short || !noise_alone || structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
     if (best.amendments.empty()) return nothing();
     const double left = best.score.nrmse / nominal.score.nrmse;
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor) {
-        if (left > nearly_nothing && (best.score.gap() > too_far_for_noise || structured(bench, best))) return Verdict::unknown;
+        if (best.score.gap() > too_far_for_noise || structured(bench, best)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
@@ -68,6 +82,9 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         const std::size_t s = static_cast<std::size_t>(outputs[o]);
         const model::Signal& signal = nominal.model.signals[s];
         if (!declares_noise(signal)) out.push_back(fmt::format("'{}' declares no noise: {:.3g} {} is taken from its roughness, and what is called a gap hangs on it", signal.name, noise[s], signal.unit));
+        if (verdict == Verdict::none && best.score.error[o] > too_far_for_noise * best.score.floor[o]) {
+            out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, best.score.error[o] / best.score.floor[o]));
+        }
         if (bench.yardstick() != Yardstick::free_run || verdict != Verdict::named) continue;
         const double over = best.score.error[o] / best.score.floor[o];
         if (over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
@@ -78,6 +95,10 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         const double share = clipped(x);
         if (share > clipped_share) out.push_back(fmt::format("'{}' stands at its largest or smallest value for {:.1f} percent of the recording: its sensor may be clipped", nominal.model.signals[s].name, 100 * share));
     }
+    if (verdict != Verdict::none) {
+        for (const std::string& e : unseen(nominal)) out.push_back(fmt::format("'{}' has a signal that is not measured: only the free run could look for what it lacks", e));
+    }
+    if (selection.cut_short) out.push_back("the search was stopped before every effect was tried: free runs of this model take long, for it is stiff or unstable with what was fitted");
     if (bench.yardstick() == Yardstick::rows) {
         out.push_back(fmt::format("this machine does not forget a disturbance, so one long run adds up every small error: effects were decided by the residuals of the equations over short windows, of which {:.3g} percent are left (before: {:.3g} percent of the driving side)",
                                   100 * best.score.nrmse, 100 * nominal.score.nrmse));

@@ -10,9 +10,6 @@
 
 namespace algest::lab {
 
-constexpr double at_the_floor = 1.15;         ///< gap over floor that counts as none
-constexpr double far_from_the_floor = 1.3;    ///< gap over floor from which on what is left must be noise that nothing foretells
-
 Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection);
 
 /// A sentence for each thing that a reader should not take for granted.

@@ -85,6 +85,34 @@ std::vector<double> own_parameters(const Workbench& bench, const Variant& v, std
     return form ? weak_fit(*form, v.fit.parameters).parameters : v.fit.parameters;
 }
 
+/// Values of a residual, each at a row of the recording.
+struct Series {
+    std::vector<std::size_t> rows;
+    std::vector<double> values;
+    void add(std::size_t row, double value) {
+        rows.push_back(row);
+        values.push_back(value);
+    }
+};
+
+/// share: of the noise's power, by which the residual's is above it; not yet of the whole gap.
+Where where_of(const std::string& equation, const Series& r, double noise, const Workbench& bench, const Variant& nominal) {
+    double squares = 0;
+    for (const double x : r.values) squares += x * x;
+    const double power = squares / static_cast<double>(std::max<std::size_t>(r.values.size(), 1));
+    Where out{equation, noise > 0 ? std::max(power / (noise * noise) - 1, 0.0) : 0.0, 0, 0, ""};
+    // The stretch between whose ends nine tenths of the power lie.
+    double sum = 0;
+    for (std::size_t k = 0; k < r.values.size(); ++k) {
+        const double t = bench.recording().t[r.rows[k]];
+        if (k == 0 || sum < 0.05 * squares) out.from_s = t;
+        if (k == 0 || sum < 0.95 * squares) out.to_s = t;
+        sum += r.values[k] * r.values[k];
+    }
+    out.region = in_words(region_of(nominal, r.rows, Eigen::Map<const Eigen::VectorXd>(r.values.data(), static_cast<Eigen::Index>(r.values.size()))), nominal.model);
+    return out;
+}
+
 }  // namespace
 
 std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& nominal, const Variant* amended) {
@@ -129,35 +157,32 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
     return out;
 }
 
-std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const std::vector<EquationResidual>& residuals) {
+std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const std::vector<EquationResidual>& residuals, const FreeRun& before) {
     std::vector<Where> out;
-    double total = 0;
-    const double from = bench.recording().t[bench.parts().train.begin];
-    const double to = bench.recording().t[bench.parts().train.end - 1];
     for (const EquationResidual& r : residuals) {
-        std::vector<std::size_t> inside;
-        for (std::size_t w = 0; w < r.t.size(); ++w) if (r.t[w] >= from && r.t[w] <= to) inside.push_back(w);
-        double squares = 0;
-        for (const std::size_t w : inside) squares += r.before[w] * r.before[w];
-        const double power = squares / static_cast<double>(std::max<std::size_t>(inside.size(), 1));
-        Where where{r.equation, r.noise > 0 ? std::max(power / (r.noise * r.noise) - 1, 0.0) : 0.0, from, to, ""};
-        // The stretch from the first to the last window between which nine tenths of the power lie.
-        double sum = 0;
-        for (const std::size_t w : inside) {
-            if (sum < 0.05 * squares) where.from_s = r.t[w];
-            if (sum < 0.95 * squares) where.to_s = r.t[w];
-            sum += r.before[w] * r.before[w];
+        Series of_rows;
+        for (std::size_t w = 0; w < r.t.size(); ++w) {
+            const std::size_t row = static_cast<std::size_t>(std::lround((r.t[w] - bench.recording().t[0]) / bench.recording().period));
+            if (row >= bench.parts().train.begin && row < bench.parts().train.end) of_rows.add(row, r.before[w]);
         }
-        Eigen::VectorXd values(static_cast<Eigen::Index>(inside.size()));
-        std::vector<std::size_t> rows;
-        for (std::size_t k = 0; k < inside.size(); ++k) {
-            values[static_cast<Eigen::Index>(k)] = r.before[inside[k]];
-            rows.push_back(static_cast<std::size_t>(std::lround((r.t[inside[k]] - bench.recording().t[0]) / bench.recording().period)));
-        }
-        where.region = in_words(region_of(nominal, rows, values), nominal.model);
-        total += where.share;
-        out.push_back(where);
+        out.push_back(where_of(r.equation, of_rows, r.noise, bench, nominal));
     }
+    const bool rows_see_it = nominal.score.gap() <= at_the_floor || std::any_of(out.begin(), out.end(), [](const Where& w) { return w.share > 0; });
+    const std::vector<double> noise = noise_by_signal(nominal.model, nominal.bench);
+    for (std::size_t e = 0; e < nominal.model.equations.size(); ++e) {
+        const std::string& name = nominal.model.equations[e].name;
+        const auto known = std::find_if(out.begin(), out.end(), [&](const Where& w) { return w.equation == name; });
+        const std::size_t s = static_cast<std::size_t>(nominal.bench.system.moving[e]);
+        if ((known != out.end() && rows_see_it) || nominal.bench.measured[s].empty()) continue;
+        Series of_run;
+        for (std::size_t row = bench.parts().train.begin; row < std::min(bench.parts().train.end, before.samples); ++row) of_run.add(row, nominal.bench.measured[s][row] - before.signals[s][row]);
+        if (of_run.rows.empty()) continue;
+        const Where where = where_of(name, of_run, noise[s], bench, nominal);
+        if (known != out.end()) *known = where;
+        else out.push_back(where);
+    }
+    double total = 0;
+    for (const Where& w : out) total += w.share;
     for (Where& w : out) w.share = total > 0 ? w.share / total : 0;
     return out;
 }

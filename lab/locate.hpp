@@ -12,7 +12,8 @@ namespace algest::lab {
 /// it best on the training rows. amended: null where nothing was added.
 std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& nominal, const Variant* amended);
 
-/// Share, stretch of time and region of each equation's gap on the training rows.
-std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const std::vector<EquationResidual>& residuals);
+/// Share, stretch of time and region of each equation's gap on the training rows: of its residual; where that is not to be had, for a
+/// signal of the equation is not measured, or where no residual rises above the noise, of the free run's error in the signal that it moves.
+std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const std::vector<EquationResidual>& residuals, const FreeRun& before);
 
 }  // namespace algest::lab

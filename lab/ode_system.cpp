@@ -212,15 +212,24 @@ private:
         out_.parameter_input = out_.inputs;
         for (std::size_t p = 0; p < model_.parameters.size(); ++p) tape_inputs_.parameter.push_back(out_.inputs++);
         out_.relay_input = out_.inputs;
-        std::map<std::string, int> known;   // one switch, however often it is written
+        number_switches(tape_inputs_.relay, relay_arguments_, [](const Formula& argument) { return is_lone(argument); });
+        number_switches(tape_inputs_.layer, layer_arguments_, [](const Formula& argument) { return !is_lone(argument); });
+    }
+
+    static bool is_lone(const Formula& argument) { return argument->kind == Kind::name || is_derivative(argument); }
+
+    /// An input for every sgn() that moves with the state and whose argument is one of those asked for; one, however often it is written.
+    template <class Asked>
+    void number_switches(std::map<const formula::Node*, int>& input, std::vector<Formula>& arguments, Asked asked) {
+        std::map<std::string, int> known;
         for (const model::Equation& e : model_.equations) {
             each_node(e, [&](const Formula& f) {
-                if (f->kind != Kind::call || f->name != "sgn" || !moves_with_state(f->arguments[0])) return;
+                if (f->kind != Kind::call || f->name != "sgn" || !moves_with_state(f->arguments[0]) || !asked(f->arguments[0])) return;
                 const auto [at, fresh] = known.emplace(formula::text(f->arguments[0]), out_.inputs);
-                tape_inputs_.relay[f.get()] = at->second;
+                input[f.get()] = at->second;
                 if (!fresh) return;
                 ++out_.inputs;
-                relay_arguments_.push_back(f->arguments[0]);
+                arguments.push_back(f->arguments[0]);
             });
         }
     }
@@ -238,9 +247,14 @@ private:
             const int right = tape.formula(e.sides.right);
             tape.result(tape.difference(left, right));
         }
+        int result = static_cast<int>(out_.moving.size());
         for (const Formula& argument : relay_arguments_) {
-            const bool lone = argument->kind == Kind::name || (argument->kind == Kind::call && argument->name == "der");
-            out_.relays.push_back({static_cast<int>(out_.moving.size() + out_.relays.size()), !lone});
+            out_.relays.push_back({result++});
+            tape.result(tape.formula(argument));
+        }
+        int width = out_.relay_input + static_cast<int>(out_.relays.size());
+        for (const Formula& argument : layer_arguments_) {
+            out_.layers.push_back({result++, width++});
             tape.result(tape.formula(argument));
         }
         out_.residual = tape.finish();
@@ -258,6 +272,7 @@ private:
     std::map<int, std::size_t> equation_of_;
     TapeInputs tape_inputs_;
     std::vector<Formula> relay_arguments_;
+    std::vector<Formula> layer_arguments_;
 };
 
 }  // namespace

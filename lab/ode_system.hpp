@@ -17,11 +17,16 @@ struct StateEntry {
     int order;
 };
 
-/// A sgn() whose argument moves with the state: it switches, or holds its argument at zero (Filippov). Where the argument is more than
-/// one signal, several relays may hold the same state at once (the phases of an inverter): those pass through a thin layer instead.
+/// A sgn() of one signal that moves: it switches, or holds its argument at zero (Filippov).
 struct Relay {
     int argument;   ///< result of the tape that is its argument
-    bool layered;
+};
+
+/// A sgn() of more than one signal. Several of these may hold the same state at once (the phases of an inverter): they rise from
+/// -1 to 1 over a thin layer instead.
+struct Layer {
+    int argument;   ///< result of the tape that is its argument
+    int width;      ///< input of the tape that is half its width, in the argument's unit
 };
 
 /// A control law that is sampled once a period and held.
@@ -33,7 +38,7 @@ struct Law {
 /// What moves, what is replayed, and the residual  left - right  of every equation, linear in the highest derivatives.
 ///
 /// Inputs of all tapes, in this order: signals (model order), derivatives of states above order 0 and the highest ones
-/// (`derivative_input`), parameters (model order), relays.
+/// (`derivative_input`), parameters (model order), relays, widths of layers.
 struct OdeSystem {
     std::vector<StateEntry> states;        ///< for each moving signal its orders 0, 1, ... in turn
     std::vector<int> moving;               ///< signals with an equation of their own, in the order of the equations
@@ -41,11 +46,12 @@ struct OdeSystem {
     std::vector<int> driven;               ///< signals that are replayed from the recording
     std::vector<Law> laws;
     std::vector<Relay> relays;
+    std::vector<Layer> layers;
     std::vector<std::vector<int>> derivative_input;   ///< by moving: tape input of orders 1 .. highest
     int parameter_input = 0;               ///< tape input of the first parameter
     int relay_input = 0;                   ///< tape input of the first relay
     int inputs = 0;
-    plan::Tape residual;                   ///< results: one per moving signal, then one argument per relay
+    plan::Tape residual;                   ///< results: one per moving signal, then the arguments of relays and layers
     bool constant_mass = true;             ///< the factors of the highest derivatives depend on parameters alone
 };
 

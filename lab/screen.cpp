@@ -193,6 +193,7 @@ public:
         amendments.push_back(a);
         const auto v = bench_.prepare(amended(base_.text, base_.whole, a), std::move(amendments), quiet);
         if (!v || !(left_.squaredNorm() > 0)) return;
+        if (v->bench.options.stride != base_.bench.options.stride) return;   // it brings time to a run that nothing drove: other samples are kept
         FitStart at = at_;
         at.parameters.clear();
         for (const model::Parameter& p : v->model.parameters) {
@@ -270,8 +271,8 @@ std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::
     }
     if (bench.yardstick() != Yardstick::free_run) return out;
     const Slope slope(bench, base);
-    for (Candidate& c : out) slope.weigh(c);
-    for (Candidate& c : rest) if (c.binding.effect->scans.empty()) slope.weigh(c);   // a scan's value is the weak form's to find
+    for (Candidate& c : out) if (!bench.used_up()) slope.weigh(c);
+    for (Candidate& c : rest) if (c.binding.effect->scans.empty() && !bench.used_up()) slope.weigh(c);   // a scan's value is the weak form's to find
     std::stable_sort(rest.begin(), rest.end(), [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
     for (std::size_t k = 0; k < rest.size() && k < by_run && rest[k].share > least_share; ++k) out.push_back(std::move(rest[k]));
     return out;

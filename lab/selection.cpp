@@ -27,6 +27,12 @@ constexpr double alike = 1.05;                  ///< validation errors within th
 constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
 constexpr double clearly_worse = 1.3;           ///< ... unless they are beyond this ratio
 
+/// A set of effects that a further one is tried beside, and the rows of the evidence that led there.
+struct Base {
+    Variant variant;
+    std::vector<std::size_t> evidence;
+};
+
 using Identity = std::set<std::pair<std::string, std::vector<std::size_t>>>;
 
 Identity identity(const Variant& v) {
@@ -151,15 +157,16 @@ bool worth_it(const Score& a, const Score& b) {
     return std::exp(ratio) < needed_gain && significance(a, b) > needed_significance;
 }
 
-Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, double enough, const StepReport& progress) {
-    Selection out{nominal, {}, {}};
-    std::vector<Variant> beside = {nominal};
+Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const StepReport& progress) {
+    Selection out{nominal, {}, {}, false};
+    std::vector<Base> beside = {{nominal, {}}};
+    bool ahead = false;   // the last step's effects are not worth it alone, a further one may show that they are
     std::set<Identity> tried;
     for (int step = 1; step <= most_effects; ++step) {
         std::vector<Variant> fitted;
-        std::vector<std::size_t> row;   // of the evidence, by fitted
-        for (std::size_t b = 0; b < beside.size(); ++b) {
-            const Variant& base = beside[b];
+        std::vector<std::vector<std::size_t>> row;   // of the evidence, by fitted
+        for (std::size_t b = 0; b < beside.size() && !bench.used_up(); ++b) {
+            const Variant& base = beside[b].variant;
             const double share = (step - 1 + static_cast<double>(b) / static_cast<double>(beside.size())) / most_effects;
             if (progress) progress("screen effects", 0.1 + 0.8 * share);
             std::size_t seen = 0;
@@ -168,10 +175,12 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
                 Identity id = identity(base);
                 id.emplace(c.binding.effect->name, c.binding.equations);
                 if (c.binding.effect->scans.empty() && !tried.insert(id).second) continue;
+                if (bench.used_up()) break;
                 if (progress) progress("fit " + c.binding.effect->name, 0.1 + 0.8 * share + 0.2 / most_effects);
                 auto v = with_candidate(bench, base, c);
                 if (!v) continue;
-                row.push_back(out.evidence.size());
+                row.push_back(beside[b].evidence);
+                row.back().push_back(out.evidence.size());
                 out.evidence.push_back(evidence_of(*v, base, c.strength, step));
                 fitted.push_back(std::move(*v));
             }
@@ -190,22 +199,32 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
             if (!outside(fitted[order[k]]) && indistinguishable(fitted[order[0]], fitted[order[k]])) std::swap(order[0], order[k]);
         }
         const Variant& top = fitted[order[0]];
-        if (!worth_it(top.score, out.best.score)) break;
-        out.evidence[row[order[0]]].chosen = true;
+        std::vector<Base> next;
+        for (const std::size_t k : order) {
+            if (next.size() < bases && fitted[k].score.nrmse < a_base_within * top.score.nrmse) next.push_back({fitted[k], row[k]});
+        }
+        // Two that mend nothing alone are named together only where they explain everything.
+        if (!worth_it(top.score, out.best.score) || (ahead && top.score.gap() > far_from_the_floor)) {
+            if (ahead) break;
+            ahead = true;
+            beside = std::move(next);
+            continue;
+        }
+        ahead = false;
+        for (const std::size_t r : row[order[0]]) out.evidence[r].chosen = true;
         out.rivals.clear();
-        std::vector<Variant> next;
         for (const std::size_t k : order) {
             if (k != order[0] && outside(fitted[k]) <= outside(top) && indistinguishable(top, fitted[k])) {
                 out.rivals.push_back(fitted[k]);
-                out.evidence[row[k]].rival = true;
+                out.evidence[row[k].back()].rival = true;
             }
-            if (next.size() < bases && fitted[k].score.nrmse < a_base_within * top.score.nrmse) next.push_back(fitted[k]);
         }
         out.best = sharpened(bench, top, nominal, effects);
         beside = std::move(next);
-        beside[0] = out.best;
-        if (out.best.score.gap() <= enough) break;
+        beside[0].variant = out.best;
+        if (out.best.score.gap() <= at_the_floor || bench.used_up()) break;
     }
+    out.cut_short = bench.used_up();
     const std::size_t before = out.best.amendments.size();
     out.best = pruned(bench, out.best, nominal);
     if (out.best.amendments.size() < before) out.rivals.clear();

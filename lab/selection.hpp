@@ -18,12 +18,13 @@ struct Selection {
     Variant best;                       ///< the nominal model itself where nothing was worth adding
     std::vector<Variant> rivals;        ///< that the validation rows do not tell from it
     std::vector<Evidence> evidence;
+    bool cut_short;                     ///< the effort of the bench was used up before every candidate was tried
 };
 
 /// True when a is so much nearer than b that adding something to b is worth it.
 bool worth_it(const Score& a, const Score& b);
 
-/// Searches until the gap is within `enough` times the floor, nothing is worth adding, or `most` effects stand.
-Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, double enough, const StepReport& progress);
+/// Searches until the gap is at the floor, nothing is worth adding, three effects stand, or the effort of the bench is used up.
+Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const StepReport& progress);
 
 }  // namespace algest::lab

@@ -16,6 +16,8 @@ constexpr double fit_share = 0.7;               ///< of the training rows are fi
 constexpr std::size_t least_train = 100;        ///< rows
 constexpr std::size_t least_test = 10;
 constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
+constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
+constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
 constexpr int search_iterations = 12;
 constexpr std::size_t rows_of_an_undriven_run = 4000;
@@ -44,6 +46,7 @@ void add(Score& score, const std::vector<double>& miss, double size, double floo
     }
     const double error = std::sqrt(squares / static_cast<double>(miss.size()));
     score.error.push_back(error);
+    score.rows = static_cast<double>(miss.size());
     score.floor.push_back(floor);
     score.blocks.push_back(std::move(blocks));
     score.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
@@ -96,6 +99,7 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     auto ready = bench(*model, recording_, said);
     if (!ready) return std::nullopt;
     ready->options.tolerance = search_tolerance;
+    ready->options.effort = &effort_;
     if (ready->system.driven.empty() && ready->system.laws.empty()) ready->options.stride = std::max<std::size_t>(1, parts_.train.size() / rows_of_an_undriven_run);
     return Variant{text, std::move(amendments), std::move(*model), whole, std::move(*ready), {}, {}};
 }
@@ -150,7 +154,10 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
     v.score = free_run_score(v);
 }
 
-void Workbench::refine(Variant& v) const {
+void Workbench::begin_search() { effort_.limit = effort_.spent + effort_of_a_search; }
+
+void Workbench::refine(Variant& v) {
+    effort_.limit = effort_.spent + effort_of_a_last_fit;
     FitStart from{v.fit.parameters, {}, v.fit.initial, parts_.train};
     if (yardstick_ == Yardstick::rows) {   // the run gets the initial values that suit it, the parameters stay those of the rows
         const WeakEstimate estimate = weak_estimate(v.model, v.bench, parts_.train, row_intervals(parts_.validation), v.fit.parameters);

@@ -36,6 +36,7 @@ struct Score {
     std::vector<double> floor;                  ///< the part of it that the sensors' noise makes
     std::vector<std::vector<double>> blocks;    ///< mean square error of each of `score_blocks` blocks
     std::vector<double> independent;            ///< samples that count, autocorrelated ones as less than one
+    double rows = 0;                            ///< samples of each output, or windows of each equation
     double nrmse = 0;                           ///< rms of error / size (free_run), of residual / driving side (rows)
 
     /// Error over floor, rms over outputs or equations; infinite where a floor is zero.
@@ -43,6 +44,8 @@ struct Score {
 };
 
 constexpr std::size_t score_blocks = 16;
+constexpr double at_the_floor = 1.15;         ///< gap that counts as none
+constexpr double far_from_the_floor = 1.3;    ///< gap from which on what is left must be noise that nothing foretells
 
 struct Variant {
     std::string text;
@@ -59,6 +62,8 @@ class Workbench {
 public:
     /// path: of the model, for messages.
     Workbench(std::string path, const Recording& recording, Parts parts) : path_(std::move(path)), recording_(recording), parts_(parts) {}
+    Workbench(const Workbench&) = delete;   // every bench that it prepares points to its effort
+    Workbench& operator=(const Workbench&) = delete;
 
     /// Reads the text and makes it ready to run. Errors of the nominal text (no amendments) go to `diagnostics`; nullopt after them.
     /// The first call, with the nominal text, decides which kinematic equations are idle.
@@ -68,7 +73,11 @@ public:
     void fit_and_score(Variant& v, const std::vector<double>& start, const std::vector<double>& initial) const;
 
     /// Fits once more, to all training rows and to the end: what is reported, once nothing is left to decide. The score stays.
-    void refine(Variant& v) const;
+    void refine(Variant& v);
+
+    /// Runs and fits of a search share an effort, counted from here; once it is used up what stands is the answer.
+    void begin_search();
+    bool used_up() const { return effort_.used_up(); }
 
     /// Free run of a fitted variant over the whole recording; the rows before the training stretch are a run of their own.
     FreeRun run(const Variant& v, double tolerance) const;
@@ -97,6 +106,7 @@ private:
     Parts parts_;
     std::set<std::string> idle_;
     Yardstick yardstick_ = Yardstick::free_run;
+    Effort effort_;
 };
 
 /// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):

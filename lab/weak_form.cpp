@@ -104,12 +104,17 @@ Windows windows_of(std::size_t samples, int intervals) {
     return {length, stride, (samples - length) / stride + 1};
 }
 
+bool measured(const Bench& bench, const equation::OperatorForm& form) {
+    for (const equation::Atom& atom : form.atoms) for (const int s : atom.arguments) if (bench.measured[static_cast<std::size_t>(s)].empty()) return false;
+    return true;
+}
+
 /// The form of an equation that every signal of it is measured for, on rows enough for two windows.
 std::optional<equation::OperatorForm> measured_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
     Diagnostics quiet;
     auto form = equation::operator_form(model, model.equations[equation], quiet);
     if (!form || form->terms.empty() || rows.size() < 2 * static_cast<std::size_t>(intervals) + 4) return std::nullopt;
-    for (const equation::Atom& atom : form->atoms) for (const int s : atom.arguments) if (bench.measured[static_cast<std::size_t>(s)].empty()) return std::nullopt;
+    if (!measured(bench, *form)) return std::nullopt;
     return form;
 }
 
@@ -119,6 +124,12 @@ std::vector<int> weak_intervals(const Rows& rows) {
     std::vector<int> out;
     for (const int intervals : {16, 64, 256, 1024}) if (out.empty() || rows.size() > 20 * static_cast<std::size_t>(intervals)) out.push_back(intervals);
     return out;
+}
+
+bool has_weak_form(const model::Model& model, const Bench& bench, std::size_t equation) {
+    Diagnostics quiet;
+    const auto form = equation::operator_form(model, model.equations[equation], quiet);
+    return form && measured(bench, *form);
 }
 
 std::vector<double> row_weights(const model::Model& model, std::size_t equation, int intervals) {

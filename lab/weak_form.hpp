@@ -24,6 +24,9 @@ struct WeakForm {
 /// Window lengths, in intervals, that are worth trying on so many rows: noise wants long windows, fast dynamics short ones.
 std::vector<int> weak_intervals(const Rows& rows);
 
+/// True when every signal of an equation is measured; its rows cannot be formed else.
+bool has_weak_form(const model::Model& model, const Bench& bench, std::size_t equation);
+
 /// Weights, oldest sample first, that the rows of an equation give to what is not differentiated, held linearly.
 std::vector<double> row_weights(const model::Model& model, std::size_t equation, int intervals);
 
