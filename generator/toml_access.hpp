@@ -19,6 +19,12 @@ namespace algest::model {
 Position position(const toml::source_region& region);
 Position position(const toml::node& node);
 
+/// A text and where it stands.
+struct PlacedText {
+    std::string text;
+    Position at;
+};
+
 /// One TOML file and the complaints about it. Readers answer nullopt (tables: null) for a key that is not there, without a
 /// complaint, and for a value that is not what is asked for, after one.
 class TomlAccess {
@@ -31,6 +37,8 @@ public:
         : path_(std::move(path)), text_(text), diagnostics_(diagnostics) {}
 
     const std::string& path() const { return path_; }
+    /// True as long as there was no complaint through this.
+    bool sound() const { return complaints_ == 0; }
     Diagnostics& diagnostics() const { return diagnostics_; }
 
     void error(Position at, std::string what, std::string right);
@@ -47,6 +55,8 @@ public:
     void each_table(const toml::table& root, std::string_view key, const std::function<void(const toml::table&)>& use);
 
     std::optional<std::string> string(const toml::table& table, std::string_view key);
+    /// The texts of a list; `example` is one that would be right.
+    std::vector<PlacedText> strings(const toml::table& table, std::string_view key, const std::string& example);
     std::optional<bool> boolean(const toml::table& table, std::string_view key);
     std::optional<int> whole(const toml::table& table, std::string_view key, int least, int most);
     /// Exact: a float is the shortest decimal that means it, a text a decimal or fraction.
