@@ -198,12 +198,12 @@ std::optional<Rational> TomlAccess::duration(const toml::table& table, std::stri
     return value;
 }
 
-std::optional<std::size_t> TomlAccess::choice(const toml::table& table, std::string_view key, const std::vector<std::string>& words) {
+std::optional<std::size_t> TomlAccess::choice(const toml::table& table, std::string_view key, std::string_view what, const std::vector<std::string>& words) {
     const auto text = string(table, key);
     if (!text) return std::nullopt;
     const auto found = std::find(words.begin(), words.end(), *text);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    error(*table.get(key), quoted(*text) + " is no " + std::string(key), did_you_mean(*text, words) + std::string(key) + " is one of " + joined(words, " | "));
+    error(*table.get(key), quoted(*text) + " is no " + std::string(what), did_you_mean(*text, words) + std::string(what) + " is one of " + joined(words, " | "));
     return std::nullopt;
 }
 

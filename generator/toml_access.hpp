@@ -66,12 +66,13 @@ public:
     std::optional<exact::Rational> not_negative(const toml::table& table, std::string_view key);
     /// A time in seconds, positive.
     std::optional<exact::Rational> duration(const toml::table& table, std::string_view key);
-    /// Sets `out` to what stands beside the word; leaves it where the key is not there or its word unknown.
+    /// Sets `out` to what stands beside the word; leaves it where the key is not there or its word unknown. `what` the words are: the key
+    /// itself, if nothing else is said.
     template <class Value>
-    void choose(const toml::table& table, std::string_view key, const std::vector<std::pair<std::string, Value>>& choices, Value& out) {
+    void choose(const toml::table& table, std::string_view key, const std::vector<std::pair<std::string, Value>>& choices, Value& out, std::string_view what = {}) {
         std::vector<std::string> words;
         for (const auto& [word, value] : choices) words.push_back(word);
-        if (const auto index = choice(table, key, words)) out = choices[*index].second;
+        if (const auto index = choice(table, key, what.empty() ? key : what, words)) out = choices[*index].second;
     }
 
     /// The position in the file of every byte of the string that a key holds, and of its end.
@@ -79,7 +80,7 @@ public:
 
 private:
     bool few_enough(Position at, std::size_t count);
-    std::optional<std::size_t> choice(const toml::table& table, std::string_view key, const std::vector<std::string>& words);
+    std::optional<std::size_t> choice(const toml::table& table, std::string_view key, std::string_view what, const std::vector<std::string>& words);
 
     std::string path_;
     const std::string& text_;

@@ -55,6 +55,12 @@ std::string time_name(const model::Model& model) {
     return "recording_time";
 }
 
+const std::vector<RoleKind>& role_kinds() {
+    static const std::vector<RoleKind> kinds = {{"own", {}}, {"speed", {"rad/s", "m/s"}}, {"position", {"rad", "m"}}, {"angle", {"rad"}}, {"current", {"A"}},
+                                                {"any_speed", {"rad/s", "m/s"}}, {"input", {}}, {"time", {"s"}}};
+    return kinds;
+}
+
 std::vector<Filler> fillers(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured) {
     const Moved own = moved(model, model.equations[equation]);
     if (own.signal < 0) return {};
