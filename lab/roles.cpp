@@ -24,7 +24,7 @@ void find_highest(const formula::Formula& f, const model::Model& model, Moved& o
 
 bool fits(const Unit& unit, const std::string& wanted) {
     const auto w = Unit::parse(wanted);
-    return w && unit.known() && unit.same_dimension(*w);
+    return w && unit.same_dimension(*w);
 }
 
 Moved moved(const model::Model& model, const model::Equation& e) {

@@ -124,6 +124,13 @@ TEST_CASE("roles: where an equation moves a position its speed is a derivative")
     CHECK(of("input", cart(), 0) == Texts{"F [N]", "v [m/s]"});
 }
 
+TEST_CASE("roles: a speed that moves at second order is no speed of a force balance") {
+    const model::Model jerk = model_of("[signals]\nw = { unit = \"rad/s\" }\nx = { unit = \"m\" }\n[parameters]\np = {}\n[[equation]]\node = \"der(w,2) = p*w\"\n[[equation]]\node = \"der(x) = p*x\"\n");
+    CHECK(of("speed", jerk, 0) == Texts{});
+    CHECK(of("speed", jerk, 1) == Texts{});
+    CHECK(of("position", jerk, 1) == Texts{});
+}
+
 TEST_CASE("roles: every kind that a file may name stands for something somewhere") {
     for (const lab::RoleKind& kind : lab::role_kinds()) {
         bool found = false;

@@ -24,6 +24,7 @@ R = { unit = "ohm", initial = 1 }
 La = { unit = "H", initial = 0.02 }
 Lb = { unit = "H", initial = 0.05 }
 K = { unit = "V.s", initial = 0.1 }
+p = { unit = "1", initial = 3 }
 )toml";
 
 /// The frame of these equations, signals being measured unless named in `without`.
@@ -56,7 +57,7 @@ TEST_CASE("rotating frame: a salient machine; the inductances cancel from the pa
 }
 
 TEST_CASE("rotating frame: the signs of the coupling say which axis is which, not the order or the side of the terms") {
-    const auto f = frame({kinematics, "-vb + R*b + K*w + n_p*w*La*a = -Lb*der(b)", "va - R*a = La*der(a) - n_p*w*Lb*b"});
+    const auto f = frame({kinematics, "-vb + R*b + K*w + n_p*w*La*a = -Lb*der(b)", "va - R*a = La*der(a) - n_p*b*w*Lb"});
     REQUIRE(f);
     CHECK(f->d_equation == 2);
     CHECK(f->q_equation == 1);
@@ -76,6 +77,9 @@ TEST_CASE("rotating frame: pairs of poles without a name are a number, one pair 
     const auto one = frame({"La*der(a) = va - R*a + w*Lb*b", "Lb*der(b) = vb - R*b - w*La*a", kinematics});
     REQUIRE(one);
     CHECK(one->angle == "th");
+    const auto free = frame({"La*der(a) = va - R*a + p*w*Lb*b", "Lb*der(b) = vb - R*b - p*w*La*a", kinematics});   // a parameter: its initial value
+    REQUIRE(free);
+    CHECK(free->angle == "3*th");
     const auto mean = frame({"La*der(a) = va - R*a + 2*w*Lb*b", "Lb*der(b) = vb - R*b - 8*w*La*a", kinematics});   // sqrt(2*8)
     REQUIRE(mean);
     CHECK(mean->angle == "n_p*th");
