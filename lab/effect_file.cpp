@@ -72,6 +72,13 @@ private:
         return text;
     }
 
+    /// The same, where only people miss it: a warning.
+    std::string for_the_reader(const toml::table& root, std::string_view key, const std::string& example) {
+        if (root.contains(key)) return prose(root, top, key, example);
+        file_.warning(top, "no " + std::string(key), "add " + std::string(key) + " = \"" + example + "\"");
+        return "";
+    }
+
     void check_effect_name(const std::string& name, Position at) {
         if (!model::is_lower_case_name(name)) file_.error(at, quoted(name) + " is not the name of an effect", "use lower case, digits and single _, a letter first: coulomb_friction");
     }
@@ -87,8 +94,8 @@ private:
             effect_.aliases.push_back(std::move(alias.text));
         }
         effect_.summary = prose(root, top, "summary", "friction of a seal");
-        effect_.shows = prose(root, top, "shows", "the residual jumps where the speed changes its sign");
-        effect_.reference = prose(root, top, "reference", "a book, a paper, your own measurement");
+        effect_.shows = for_the_reader(root, "shows", "the residual jumps where the speed changes its sign");
+        effect_.reference = for_the_reader(root, "reference", "a book, a paper, your own measurement");
         effect_.outside = file_.boolean(root, "outside").value_or(false);
     }
 

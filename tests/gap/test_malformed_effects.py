@@ -167,8 +167,6 @@ KEYS = [
 MISSING = [
     ("no name", "▸" + without(FRICTION.replace('name = "Tseal"', 'name  = "Tseal"').replace('name = "viscous', 'name  = "viscous'), "name"), "no name; add name = "),
     ("no summary", "▸" + without(FRICTION, "summary"), "no summary; add summary = "),
-    ("no word of how it shows", "▸" + without(FRICTION, "shows"), "no shows; add shows = "),
-    ("no reference", "▸" + without(FRICTION, "reference"), "no reference; add reference = "),
     ("no enters", "▸" + friction('[enters]\nunits = ["N.m", "N"]\n', ""), "no [enters]"),
     ("no units", friction("[enters]", "▸[enters]", 'units = ["N.m", "N"]', ""), "no units of equations"),
     ("no unit among the units", friction('["N.m", "N"]', "▸[]"), "no units of equations"),
@@ -187,7 +185,7 @@ MISSING = [
     ("rival without an experiment", friction("[[rival]]", "▸[[rival]]", 'experiment = "run at several speeds"\n', ""), "no experiment"),
     ("d without q", frame("[rewrite]", "▸[rewrite]", 'q = "-Vd*sgn({q})*cos({angle})"\n', ""), "d without q"),
     ("q without d", frame("[rewrite]", "▸[rewrite]", 'd = "-Vd*sgn({d})"\n', ""), "q without d"),
-    ("an empty file", "▸▸▸▸▸▸▸", "no name"),
+    ("an empty file", "▸▸▸▸▸", "no name"),
 ]
 
 VALUES = [
@@ -337,6 +335,17 @@ class Malformed(ModelCase):
                      wave("from = 2\nto = 60\nstep = 1", "spectrum = true", '"1"', '"rad/s"', '"angle"', '"time"')):
             self.write(text.encode(), "effects/e.toml")
             self.sound()
+
+    def test_what_only_a_reader_misses_is_a_warning(self):
+        for key in ("shows", "reference"):
+            self.write(without(FRICTION, key).encode(), "effects/e.toml")
+            self.sound()
+            _, _, err, _ = self.answer()
+            self.assertIn(f'{self.effect()}:1:1: warning: no {key}; add {key} = "', err)
+            self.assertEqual(err.count(": warning: "), 1, err)
+
+    def test_the_library_lacks_nothing(self):
+        self.assertNotIn("warning", self.answer()[2])
 
     def test_there_are_enough_and_each_is_another(self):
         texts = [text for cases in CASES.values() for _, text, _ in cases]
