@@ -37,6 +37,9 @@ Variant at(const Variant& v, double gap) {
     return out;
 }
 
+/// A search that ended with this variant.
+Selection selected(Variant best) { return {std::move(best), {}, {}}; }
+
 struct Found {
     double gap;                ///< of what was chosen
     bool added = true;
@@ -47,7 +50,7 @@ struct Found {
 /// The verdict on a nominal model with a gap, where the search found this.
 Verdict verdict(const Workplace& w, double nominal_gap, const Found& found, lab::Yardstick yardstick = lab::Yardstick::free_run) {
     const Variant nominal = at(*w.nominal, nominal_gap);
-    Selection selection{at(*w.nominal, found.gap), {}, {}};
+    Selection selection = selected(at(*w.nominal, found.gap));
     if (found.added) selection.best.amendments.push_back({"effect", {0}, {"-c"}, {}, "", "", ""});
     if (found.rival) selection.rivals.push_back(selection.best);
     selection.evidence.push_back({"effect", "e", "-c", found.strength, 0, 0, found.added, false, 1});
@@ -62,7 +65,7 @@ bool any_says(const std::vector<std::string>& sentences, const std::string& word
 }
 
 std::vector<std::string> doubts_of(const Workplace& w, double gap, Verdict v = Verdict::named) {
-    return lab::doubts(*w.bench, at(*w.nominal, 9), {at(*w.nominal, gap), {}, {}}, v);
+    return lab::doubts(*w.bench, at(*w.nominal, 9), selected(at(*w.nominal, gap)), v);
 }
 
 }  // namespace
@@ -146,7 +149,7 @@ TEST_CASE("doubts: runs at an extreme are a clipped sensor, single peaks are not
 
 TEST_CASE("doubts: what was scanned, and what is hardly known") {
     const Workplace& w = noise_alone();
-    Selection selection{at(*w.nominal, 1), {}, {}};
+    Selection selection = selected(at(*w.nominal, 1));
     lab::Amendment wave{"wave", {0}, {"-a*sin(N*x)"}, {}, "", "", ""};
     wave.names.push_back({"a", "1/s", 0, std::nullopt, false, false});
     wave.names.push_back({"N", "1", 4, std::nullopt, false, true});
@@ -166,7 +169,7 @@ TEST_CASE("doubts: what was scanned, and what is hardly known") {
 TEST_CASE("doubts: rows in place of the long run") {
     const Workplace& w = noise_alone();
     w.bench->measure_by(lab::Yardstick::rows);
-    const auto said = lab::doubts(*w.bench, at(*w.nominal, 200), {at(*w.nominal, 50), {}, {}}, Verdict::named);
+    const auto said = lab::doubts(*w.bench, at(*w.nominal, 200), selected(at(*w.nominal, 50)), Verdict::named);
     w.bench->measure_by(lab::Yardstick::free_run);
     REQUIRE(said.size() == 1);   // floors of outputs are no measure of rows
     CHECK(any_says(said, "of which 5 percent are left (before: 20 percent"));
