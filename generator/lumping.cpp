@@ -4,10 +4,9 @@
 #include <ginac/ginac.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "generator/ginac_exact.hpp"
+#include "generator/identifiability.hpp"
 
 namespace algest::lumping {
 
@@ -59,12 +58,6 @@ private:
     std::size_t generators_ = 0;
 };
 
-/// The equations that share parameters, and those parameters.
-struct Component {
-    std::vector<int> equations;
-    std::vector<int> parameters;
-};
-
 class Lumper {
 public:
     Lumper(const model::Model& model, const std::vector<OperatorForm>& forms, Diagnostics& diagnostics)
@@ -88,16 +81,11 @@ public:
 private:
     Quotient one() const { return {constant(1, variables_), constant(1, variables_)}; }
 
-    /// True when the rows of the equation see the term: kappa >= 1 erases constants.
-    bool kept(std::size_t e, const Term& term) const {
-        return model_.equations[e].kappa == 0 || !forms_[e].is_constant(term.product);
-    }
-
     std::vector<int> parameters_of(std::size_t e, bool kept_only) const {
         std::vector<int> out;
         for (std::size_t k = 0; k < variables_; ++k) {
             for (const Term& term : forms_[e].terms) {
-                if (uses(term.coefficient, k) && (!kept_only || kept(e, term))) {
+                if (uses(term.coefficient, k) && (!kept_only || kept(model_.equations[e], forms_[e], term))) {
                     out.push_back(static_cast<int>(k));
                     break;
                 }
@@ -164,15 +152,15 @@ private:
     const Polynomial& leading(int e) const {
         const OperatorForm& form = forms_[static_cast<std::size_t>(e)];
         if (form.leading >= 0) return form.terms[static_cast<std::size_t>(form.leading)].coefficient;
-        return std::find_if(form.terms.begin(), form.terms.end(), [&](const Term& t) { return kept(static_cast<std::size_t>(e), t); })->coefficient;
+        return std::find_if(form.terms.begin(), form.terms.end(), [&](const Term& t) { return kept(model_.equations[static_cast<std::size_t>(e)], form, t); })->coefficient;
     }
 
     template <class Use>
     void each_term(const Component& c, Use use) const {
         for (const int e : c.equations) {
-            const std::vector<Term>& terms = forms_[static_cast<std::size_t>(e)].terms;
-            for (std::size_t k = 0; k < terms.size(); ++k) {
-                if (kept(static_cast<std::size_t>(e), terms[k])) use(e, static_cast<int>(k), terms[k]);
+            const OperatorForm& form = forms_[static_cast<std::size_t>(e)];
+            for (std::size_t k = 0; k < form.terms.size(); ++k) {
+                if (kept(model_.equations[static_cast<std::size_t>(e)], form, form.terms[k])) use(e, static_cast<int>(k), form.terms[k]);
             }
         }
     }
@@ -237,12 +225,12 @@ private:
 
     bool lump_component(const Component& c, int number) {
         const bool can_divide = size_of_denominator(c) <= 64;
-        if (const std::size_t missing = undetermined(c, false).missing; missing > 0) {
+        if (const std::size_t missing = undetermined(model_, forms_, c, false).missing; missing > 0) {
             return refuse_shortage(c, missing, can_divide ? "enter only through " + seen(divided(c)) : "enter only together");
         }
-        const bool ties = std::any_of(forms_.begin(), forms_.end(), [](const OperatorForm& f) { return without_parameters(f); });
+        const bool ties = std::any_of(forms_.begin(), forms_.end(), without_parameters);
         if (ties) {
-            if (const Undetermined open = undetermined(c, true); open.missing > 0) return refuse_tied(c, open);
+            if (const Undetermined open = undetermined(model_, forms_, c, true); open.missing > 0) return refuse_tied(c, open);
         }
         const bool linear = linear_as_written(c);
         if (!can_divide) {
@@ -305,143 +293,6 @@ private:
                                std::to_string(c.parameters.size()) + " parameters, because of the term " + term,
                            "declare a parameter of that term under [constants], or name the product as a parameter of its own");
         return false;
-    }
-
-    /// Values of the parameters (primes over 7) at which things are what they are almost everywhere.
-    std::vector<Rational> generic_point() const {
-        std::vector<Rational> point(variables_, 1);
-        int prime = 101;
-        for (Rational& x : point) {
-            x = Rational(prime) / 7;
-            do prime += 2;
-            while (prime % 3 == 0 || prime % 5 == 0 || prime % 7 == 0 || prime % 11 == 0 || prime % 13 == 0);
-        }
-        return point;
-    }
-
-    /// The parameters that no data determine, and how many of them would have to be known.
-    struct Undetermined {
-        std::size_t missing;
-        std::vector<int> parameters;
-    };
-
-    /// The equations hold at other values too where each of their coefficients moves by its derivatives as much as a factor on
-    /// its equation, or with `tied` a multiple of an equation without parameters, would move it: what the rank of derivatives
-    /// lacks beside these columns. b/a, c/a and c/b are three unknowns, and leave one of three parameters open.
-    Undetermined undetermined(const Component& c, bool tied) const {
-        const std::vector<Rational> point = generic_point();
-        std::map<std::pair<int, std::string>, std::vector<Rational>> rows;   // by equation and signal; a column for each parameter ...
-        const std::size_t physical = c.parameters.size();
-        std::size_t columns = physical;
-        const auto entry = [&](int e, const std::string& signal, std::size_t column) -> Rational& {
-            std::vector<Rational>& row = rows[{e, signal}];
-            if (row.size() <= column) row.resize(column + 1, 0);
-            return row[column];
-        };
-        each_term(c, [&](int e, int, const Term& term) {
-            const std::string signal = differentiated_text(forms_[static_cast<std::size_t>(e)], term.product, 0);
-            for (std::size_t k = 0; k < physical; ++k) entry(e, signal, k) = value_at(derivative(term.coefficient, static_cast<std::size_t>(c.parameters[k])), point);
-        });
-        for (const int e : c.equations) {   // ... and one for each factor
-            for (const Term& term : forms_[static_cast<std::size_t>(e)].terms) {
-                if (!kept(static_cast<std::size_t>(e), term)) continue;
-                entry(e, differentiated_text(forms_[static_cast<std::size_t>(e)], term.product, 0), columns) = value_at(term.coefficient, point);
-            }
-            ++columns;
-        }
-        for (const int e : c.equations) {   // ... and for each tie
-            for (std::size_t r = 0; tied && r < forms_.size(); ++r) {
-                for (int times = 0; without_parameters(forms_[r]) && times <= (all_alone(forms_[r]) ? forms_[static_cast<std::size_t>(e)].n : 0); ++times) {
-                    for (const Term& term : forms_[r].terms) {
-                        const bool erased = forms_[r].is_constant(term.product) && (times > 0 || model_.equations[static_cast<std::size_t>(e)].kappa > 0);
-                        if (!erased) entry(e, differentiated_text(forms_[r], term.product, times), columns) = term.coefficient.begin()->second;
-                    }
-                    ++columns;
-                }
-            }
-        }
-        std::vector<std::vector<Rational>> matrix;
-        for (auto& [place, row] : rows) {
-            row.resize(columns, 0);
-            matrix.push_back(row);
-        }
-        std::vector<bool> counted(columns, true);
-        const std::size_t full = rank(matrix, counted);
-        std::fill(counted.begin(), counted.begin() + static_cast<std::ptrdiff_t>(physical), false);
-        Undetermined out{physical - (full - rank(matrix, counted)), {}};
-        std::fill(counted.begin(), counted.end(), true);
-        for (std::size_t k = 0; out.missing > 0 && k < physical; ++k) {   // those whose column adds nothing to the others
-            counted[k] = false;
-            if (rank(matrix, counted) == full) out.parameters.push_back(c.parameters[k]);
-            counted[k] = true;
-        }
-        return out;
-    }
-
-    static std::size_t rank(std::vector<std::vector<Rational>> rows, const std::vector<bool>& with_column) {
-        std::size_t out = 0;
-        for (std::size_t column = 0; column < with_column.size() && out < rows.size(); ++column) {
-            if (!with_column[column]) continue;
-            std::size_t pivot = out;
-            while (pivot < rows.size() && cln::zerop(rows[pivot][column])) ++pivot;
-            if (pivot == rows.size()) continue;
-            std::swap(rows[out], rows[pivot]);
-            for (std::size_t r = out + 1; r < rows.size(); ++r) {
-                if (cln::zerop(rows[r][column])) continue;
-                const Rational factor = rows[r][column] / rows[out][column];
-                for (std::size_t j = column; j < with_column.size(); ++j) rows[r][j] = rows[r][j] - factor * rows[out][j];
-            }
-            ++out;
-        }
-        return out;
-    }
-
-    static bool without_parameters(const OperatorForm& form) {
-        return std::all_of(form.terms.begin(), form.terms.end(), [](const Term& t) { return is_constant(t.coefficient); });
-    }
-
-    /// A signal or derivative by itself, or a constant: what can be differentiated term by term.
-    static bool all_alone(const OperatorForm& form) {
-        return std::all_of(form.terms.begin(), form.terms.end(), [&](const Term& t) { return form.is_constant(t.product) || is_alone(form, t.product); });
-    }
-
-    static bool is_alone(const OperatorForm& form, const equation::Product& product) {
-        return product.size() == 1 && product[0].power == 1 && form.atoms[static_cast<std::size_t>(product[0].atom)].kind != equation::Atom::Kind::function;
-    }
-
-    /// "der(x,3)" for der(x) differentiated twice; otherwise the factors in the order of their texts: each equation numbers its
-    /// atoms by itself.
-    std::string differentiated_text(const OperatorForm& form, const equation::Product& product, int times) const {
-        if (is_alone(form, product)) {
-            const equation::Atom& atom = form.atoms[static_cast<std::size_t>(product[0].atom)];
-            return "der(" + model_.signals[static_cast<std::size_t>(atom.signal)].name + "," + std::to_string(atom.order + times) + ")";
-        }
-        std::set<std::string> factors;
-        for (const equation::Factor& f : product) factors.insert("(" + form.atoms[static_cast<std::size_t>(f.atom)].text + ")^" + std::to_string(f.power));
-        std::string out;
-        for (const std::string& f : factors) out += f;
-        return out;
-    }
-
-    static Rational value_at(const Polynomial& a, const std::vector<Rational>& point) {
-        Rational out = 0;
-        for (const auto& [exponents, coefficient] : a) {
-            Rational term = coefficient;
-            for (std::size_t k = 0; k < exponents.size(); ++k) if (exponents[k] != 0) term = term * exact::power(point[k], exponents[k]);
-            out = out + term;
-        }
-        return out;
-    }
-
-    static Polynomial derivative(const Polynomial& a, std::size_t k) {
-        Polynomial out;
-        for (const auto& [exponents, coefficient] : a) {
-            if (exponents[k] == 0) continue;
-            Exponents lowered = exponents;
-            --lowered[k];
-            out.emplace(lowered, coefficient * exponents[k]);
-        }
-        return out;
     }
 
     bool refuse_shortage(const Component& c, std::size_t missing, const std::string& how) {
@@ -580,7 +431,7 @@ private:
     /// True when the inverse undoes the meanings. It may not: a square that is multiplied by a denominator can lose a degree where
     /// the two have a factor in common, and what is then solved is that factor.
     bool gives_back(const Component& c) const {
-        const std::vector<Rational> point = generic_point();
+        const std::vector<Rational> point = generic_point(variables_);
         std::vector<Rational> unknowns;
         for (const Unknown& u : out_.unknowns) unknowns.push_back(value_at(u.meaning.numerator, point) / value_at(u.meaning.denominator, point));
         return std::all_of(c.parameters.begin(), c.parameters.end(), [&](int p) {

@@ -7,20 +7,15 @@
 #include "generator/model_sections.hpp"
 #include "generator/names.hpp"
 #include "generator/source_text.hpp"
+#include "generator/toml_file.hpp"
 
 namespace algest::model {
 
 namespace {
 
-constexpr std::size_t largest_file = 1024 * 1024;
-constexpr int longest_key = 10;   // dotted parts; a model needs 4
-
-/// format, name, summary, source.
+/// name, summary, source.
 void read_head(const toml::table& root, Reading& reading) {
     TomlAccess& file = reading.file;
-    if (const toml::node* format = root.get("format")) {
-        if (format->value_exact<std::int64_t>() != 1) file.error(*format, "format is not 1", "this version reads format = 1");
-    }
     if (const auto name = file.string(root, "name")) {
         reading.model.name = *name;
         if (const auto fault = fault_of_model_name(*name)) file.error(*root.get("name"), fault->what, fault->right);
@@ -53,14 +48,6 @@ void read_sections(const toml::table& root, Reading& reading) {
     read_equations(root, reading);
     read_feedback(root, reading);
     if (!root.contains("signals")) file.error(Position{1, 1}, "no [signals]", "declare what is measured: y = { unit = \"rad\" }");
-}
-
-/// toml++ says it of a line end in a string as of any control character.
-std::string toml_complaint(const toml::parse_error& e, const std::string& text, Position at) {
-    std::string what(e.description());
-    for (char& c : what) if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    if (what.find("control characters") != std::string::npos && at_line_end(text, at)) return "a text that is not closed on its line";
-    return "not TOML: " + what;
 }
 
 }  // namespace
@@ -103,30 +90,14 @@ std::optional<Model> read(const std::string& path, bool strict, Diagnostics& dia
 }
 
 std::optional<Model> read_from_text(const std::string& text, const std::string& path, bool strict, Diagnostics& diagnostics) {
-    if (const auto at = not_utf8(text)) {
-        diagnostics.error(path, *at, "not UTF-8", "save the file as UTF-8");
-        return std::nullopt;
-    }
-    if (const auto at = too_long_key(text, longest_key)) {
-        diagnostics.error(path, *at, "a key of more than " + std::to_string(longest_key) + " parts", "a model needs no such key");
-        return std::nullopt;
-    }
-    try {
-        const toml::table root = toml::parse(std::string_view(text), path);
-        TomlAccess file(path, text, diagnostics);
-        Model model;
-        model.path = path;
+    Model model;
+    model.path = path;
+    read_toml(path, text, "see the model file format in docs", diagnostics, [&](const toml::table& root, TomlAccess& file) {
         Reading reading{file, model, strict};
         read_sections(root, reading);
-        if (diagnostics.has_errors()) return std::nullopt;
-        return model;
-    } catch (const TomlAccess::TooMany&) {
-        return std::nullopt;
-    } catch (const toml::parse_error& e) {
-        const Position at = within_line(text, position(e.source()));
-        diagnostics.error(path, at, toml_complaint(e, text, at), "see the model file format in docs");
-        return std::nullopt;
-    }
+    });
+    if (diagnostics.has_errors()) return std::nullopt;
+    return model;
 }
 
 }  // namespace algest::model

@@ -158,15 +158,7 @@ void read_order(const toml::table& t, int n, TransferInput& input, TomlAccess& f
 
 Coefficients read_coefficients(const toml::table& t, TomlAccess& file) {
     Coefficients out;
-    if (const toml::node* node = t.get("unknowns")) {
-        const toml::array* array = node->as_array();
-        if (array == nullptr) file.error(*node, "'unknowns' is not a list", "write unknowns = [\"a0\", \"b0\"]");
-        else for (const toml::node& entry : *array) {
-            const auto name = entry.value_exact<std::string>();
-            if (!name) file.error(entry, "an unknown is not a text", "write unknowns = [\"a0\", \"b0\"]");
-            else out.unknowns.push_back({*name, position(entry)});
-        }
-    }
+    for (PlacedText& name : file.strings(t, "unknowns", "[\"a0\", \"b0\"]")) out.unknowns.push_back({std::move(name.text), name.at});
     if (const toml::table* known = file.subtable(t, "known")) {
         file.each_named(*known, [&](const std::string& name, Position at, const toml::node& node) {
             if (const auto value = file.number(node, name)) out.known.push_back({name, at, *value});

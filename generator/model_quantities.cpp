@@ -10,8 +10,6 @@ using exact::Rational;
 
 namespace {
 
-constexpr std::size_t longest_unit = 60;
-
 /// Name, and the rules that signals, constants and parameters share.
 bool take_name(const std::string& name, Position at, Reading& reading) {
     if (const auto fault = fault_of_name(name)) {
@@ -38,12 +36,8 @@ std::string read_unit(const toml::table& t, const std::string& name, Position at
         return {};
     }
     const toml::node& node = *t.get("unit");
-    if (const auto right = units::right_spelling(*text)) {
-        file.error(node, quoted(*text) + " is not a unit", "write " + *right);
-        return {};
-    }
-    if (fault_of_prose(*text) || text->size() > longest_unit || !units::Unit::parse(*text)) {
-        file.error(node, "UDUNITS does not know the unit " + quoted(*text), "write products with points and powers with ^: N.m, kg.m^2, rad/s");
+    if (const auto fault = units::fault_of_unit(*text)) {
+        file.error(node, fault->what, fault->right);
         return {};
     }
     if (units::mentions_hertz(*text)) {

@@ -70,11 +70,14 @@ std::optional<NameFault> fault_of_name(const std::string& name) {
     return std::nullopt;
 }
 
-std::optional<NameFault> fault_of_model_name(const std::string& name) {
+bool is_lower_case_name(const std::string& name) {
     const auto fine = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    const bool shape = !name.empty() && name.size() <= 60 && name[0] >= 'a' && name[0] <= 'z' && name.back() != '_' &&
-                       name.find("__") == std::string::npos && std::all_of(name.begin(), name.end(), fine);
-    if (!shape) return NameFault{quoted(name) + " is not a model name", "use lower case, digits and single _, a letter first: dc_motor"};
+    return !name.empty() && name.size() <= 60 && name[0] >= 'a' && name[0] <= 'z' && name.back() != '_' &&
+           name.find("__") == std::string::npos && std::all_of(name.begin(), name.end(), fine);
+}
+
+std::optional<NameFault> fault_of_model_name(const std::string& name) {
+    if (!is_lower_case_name(name)) return NameFault{quoted(name) + " is not a model name", "use lower case, digits and single _, a letter first: dc_motor"};
     if (contains(cpp_words, name)) return NameFault{"'" + name + "' is a C++ keyword", "choose another name"};
     if (contains(taken_by_runtime, name)) return NameFault{"'" + name + "' is taken by generated code", "choose another name"};
     return std::nullopt;

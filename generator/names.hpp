@@ -13,7 +13,10 @@ struct NameFault {
 };
 std::optional<NameFault> fault_of_name(const std::string& name);
 
-/// The same for the name of a model: lower case, digits, underscores; it becomes a directory and a class.
+/// Lower case, digits and single underscores, a letter first: what a file or a folder may be called anywhere.
+bool is_lower_case_name(const std::string& name);
+
+/// What is wrong with the name of a model: lower case, digits, underscores; it becomes a directory and a class.
 std::optional<NameFault> fault_of_model_name(const std::string& name);
 
 /// In lower case: names that differ by case alone have one such text.

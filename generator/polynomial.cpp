@@ -105,6 +105,27 @@ std::string spelt(const Quotient& q, const std::vector<std::string>& names, cons
 
 }  // namespace
 
+Rational value_at(const Polynomial& a, const std::vector<Rational>& point) {
+    Rational out = 0;
+    for (const auto& [exponents, coefficient] : a) {
+        Rational term = coefficient;
+        for (std::size_t k = 0; k < exponents.size(); ++k) if (exponents[k] != 0) term = term * exact::power(point[k], exponents[k]);
+        out = out + term;
+    }
+    return out;
+}
+
+Polynomial derivative(const Polynomial& a, std::size_t k) {
+    Polynomial out;
+    for (const auto& [exponents, coefficient] : a) {
+        if (exponents[k] == 0) continue;
+        Exponents lowered = exponents;
+        --lowered[k];
+        out.emplace(lowered, coefficient * exponents[k]);
+    }
+    return out;
+}
+
 std::string text(const Polynomial& a, const std::vector<std::string>& names) { return spelt(a, names, Spelling{false}); }
 std::string latex(const Polynomial& a, const std::vector<std::string>& names) { return spelt(a, names, Spelling{true}); }
 std::string text(const Quotient& q, const std::vector<std::string>& names) { return spelt(q, names, Spelling{false}); }

@@ -24,6 +24,10 @@ int total_degree(const Polynomial& a);
 bool is_constant(const Polynomial& a);
 /// True if variable k occurs.
 bool uses(const Polynomial& a, std::size_t k);
+/// At a point, a value for each variable.
+exact::Rational value_at(const Polynomial& a, const std::vector<exact::Rational>& point);
+/// d/d(variable k).
+Polynomial derivative(const Polynomial& a, std::size_t k);
 /// The rational c for which a / c has coprime integer coefficients, the first positive. a: a map to coefficients, not empty.
 template <class Terms>
 exact::Rational content(const Terms& a) {

@@ -14,7 +14,7 @@ using exact::Rational;
 namespace {
 
 constexpr int most_complaints = 100;
-constexpr std::size_t most_entries = 100;   // signals, constants, parameters, equations, each
+constexpr std::size_t most_entries = 100;   // of a table or list, each
 constexpr int largest_time = 9;             // 10^+-this, s
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
@@ -73,7 +73,7 @@ void TomlAccess::each_named(const toml::table& table, const std::function<void(c
 /// Too many entries are one complaint, and none of those beyond is looked at.
 bool TomlAccess::few_enough(Position at, std::size_t count) {
     if (count < most_entries) return true;
-    if (count == most_entries) error(at, "more than " + std::to_string(most_entries) + " entries here", "split the model");
+    if (count == most_entries) error(at, "more than " + std::to_string(most_entries) + " entries here", "split the file");
     return false;
 }
 
@@ -99,6 +99,24 @@ std::optional<std::string> TomlAccess::string(const toml::table& table, std::str
     const auto value = node->value_exact<std::string>();
     if (!value) error(*node, "'" + std::string(key) + "' is not a text", "write it in quotes");
     return value;
+}
+
+std::vector<PlacedText> TomlAccess::strings(const toml::table& table, std::string_view key, const std::string& example) {
+    std::vector<PlacedText> out;
+    const toml::node* node = table.get(key);
+    if (node == nullptr) return out;
+    const std::string right = "write " + std::string(key) + " = " + example;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) {
+        error(*node, quoted(key) + " is not a list", right);
+        return out;
+    }
+    for (const toml::node& entry : *array) {
+        if (!few_enough(position(entry), out.size())) return out;
+        if (auto text = entry.value_exact<std::string>()) out.push_back({std::move(*text), position(entry)});
+        else error(entry, quoted(key) + " holds something that is not a text", right);
+    }
+    return out;
 }
 
 std::optional<bool> TomlAccess::boolean(const toml::table& table, std::string_view key) {
@@ -180,12 +198,12 @@ std::optional<Rational> TomlAccess::duration(const toml::table& table, std::stri
     return value;
 }
 
-std::optional<std::size_t> TomlAccess::choice(const toml::table& table, std::string_view key, const std::vector<std::string>& words) {
+std::optional<std::size_t> TomlAccess::choice(const toml::table& table, std::string_view key, std::string_view what, const std::vector<std::string>& words) {
     const auto text = string(table, key);
     if (!text) return std::nullopt;
     const auto found = std::find(words.begin(), words.end(), *text);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    error(*table.get(key), quoted(*text) + " is no " + std::string(key), did_you_mean(*text, words) + std::string(key) + " is one of " + joined(words, " | "));
+    error(*table.get(key), quoted(*text) + " is no " + std::string(what), did_you_mean(*text, words) + std::string(what) + " is one of " + joined(words, " | "));
     return std::nullopt;
 }
 

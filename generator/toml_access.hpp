@@ -19,6 +19,12 @@ namespace algest::model {
 Position position(const toml::source_region& region);
 Position position(const toml::node& node);
 
+/// A text and where it stands.
+struct PlacedText {
+    std::string text;
+    Position at;
+};
+
 /// One TOML file and the complaints about it. Readers answer nullopt (tables: null) for a key that is not there, without a
 /// complaint, and for a value that is not what is asked for, after one.
 class TomlAccess {
@@ -31,6 +37,8 @@ public:
         : path_(std::move(path)), text_(text), diagnostics_(diagnostics) {}
 
     const std::string& path() const { return path_; }
+    /// True as long as there was no complaint through this.
+    bool sound() const { return complaints_ == 0; }
     Diagnostics& diagnostics() const { return diagnostics_; }
 
     void error(Position at, std::string what, std::string right);
@@ -47,6 +55,8 @@ public:
     void each_table(const toml::table& root, std::string_view key, const std::function<void(const toml::table&)>& use);
 
     std::optional<std::string> string(const toml::table& table, std::string_view key);
+    /// The texts of a list; `example` is one that would be right.
+    std::vector<PlacedText> strings(const toml::table& table, std::string_view key, const std::string& example);
     std::optional<bool> boolean(const toml::table& table, std::string_view key);
     std::optional<int> whole(const toml::table& table, std::string_view key, int least, int most);
     /// Exact: a float is the shortest decimal that means it, a text a decimal or fraction.
@@ -56,12 +66,13 @@ public:
     std::optional<exact::Rational> not_negative(const toml::table& table, std::string_view key);
     /// A time in seconds, positive.
     std::optional<exact::Rational> duration(const toml::table& table, std::string_view key);
-    /// Sets `out` to what stands beside the word; leaves it where the key is not there or its word unknown.
+    /// Sets `out` to what stands beside the word; leaves it where the key is not there or its word unknown. `what` the words are: the key
+    /// itself, if nothing else is said.
     template <class Value>
-    void choose(const toml::table& table, std::string_view key, const std::vector<std::pair<std::string, Value>>& choices, Value& out) {
+    void choose(const toml::table& table, std::string_view key, const std::vector<std::pair<std::string, Value>>& choices, Value& out, std::string_view what = {}) {
         std::vector<std::string> words;
         for (const auto& [word, value] : choices) words.push_back(word);
-        if (const auto index = choice(table, key, words)) out = choices[*index].second;
+        if (const auto index = choice(table, key, what.empty() ? key : what, words)) out = choices[*index].second;
     }
 
     /// The position in the file of every byte of the string that a key holds, and of its end.
@@ -69,7 +80,7 @@ public:
 
 private:
     bool few_enough(Position at, std::size_t count);
-    std::optional<std::size_t> choice(const toml::table& table, std::string_view key, const std::vector<std::string>& words);
+    std::optional<std::size_t> choice(const toml::table& table, std::string_view key, std::string_view what, const std::vector<std::string>& words);
 
     std::string path_;
     const std::string& text_;

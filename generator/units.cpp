@@ -3,7 +3,10 @@
 
 #include <udunits2.h>
 
+#include <algorithm>
 #include <map>
+
+#include "generator/diagnostics.hpp"
 
 namespace algest::units {
 
@@ -109,6 +112,14 @@ std::optional<std::string> right_spelling(const std::string& text) {
     const auto found = known.find(text);
     if (found == known.end()) return std::nullopt;
     return found->second;
+}
+
+std::optional<UnitFault> fault_of_unit(const std::string& text) {
+    constexpr std::size_t longest = 60;
+    if (const auto right = right_spelling(text)) return UnitFault{quoted(text) + " is not a unit", "write " + *right};
+    const bool control = std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+    if (!control && text.size() <= longest && Unit::parse(text)) return std::nullopt;
+    return UnitFault{"UDUNITS does not know the unit " + quoted(text), "write products with points and powers with ^: N.m, kg.m^2, rad/s"};
 }
 
 bool mentions_hertz(const std::string& text) {

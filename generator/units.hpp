@@ -34,6 +34,13 @@ private:
 /// What to write instead of a usual misspelling (`Nm`, `Ns/m`, `kgm2`, ...); nullopt if the text is not one.
 std::optional<std::string> right_spelling(const std::string& text);
 
+/// What is wrong with a text as a unit, and what would be right; nullopt if UDUNITS knows it.
+struct UnitFault {
+    std::string what;
+    std::string right;
+};
+std::optional<UnitFault> fault_of_unit(const std::string& text);
+
 /// True when the unit is hertz, or contains it: UDUNITS converts Hz to rad/s with factor 1.
 bool mentions_hertz(const std::string& text);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
 
 namespace algest::lab {
@@ -21,10 +22,6 @@ std::size_t offset_of(const std::string& text, Position at) {
         while (offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0U) == 0x80U) ++offset;
     }
     return offset;
-}
-
-void replace_all(std::string& text, const std::string& what, const std::string& with) {
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) text.replace(at, what.size(), with);
 }
 
 /// Replaces a name where it stands as a whole word.
@@ -61,11 +58,18 @@ int highest_order(const formula::Formula& f) {
     return order;
 }
 
-std::string entry_text(const NewName& n, const std::string& because) {
-    std::string out = n.name + " = { " + (n.constant ? "value = " : "initial = ") + fmt::format("{:.6g}", n.value);
-    if (!n.unit.empty()) out += ", unit = \"" + n.unit + "\"";
-    if (n.not_negative) out += ", min = 0";
-    return out + " }   # " + because + "\n";
+/// To six digits, and not below the bound that stands beside it.
+std::string value_text(const NewName& n) {
+    const std::string rounded = fmt::format("{:.6g}", n.value);
+    return n.min && !(std::stod(rounded) >= *n.min) ? fmt::format("{}", *n.min) : rounded;
+}
+
+/// The keys of a new name: "value = 1", "unit = ...".
+std::vector<std::string> keys_of(const NewName& n) {
+    std::vector<std::string> out = {(n.constant ? "value = " : "initial = ") + value_text(n)};
+    if (!n.unit.empty()) out.push_back("unit = \"" + n.unit + "\"");
+    if (n.min) out.push_back(fmt::format("min = {}", *n.min));
+    return out;
 }
 
 /// Behind the line on which the last of these names is declared, if those lines hold one entry each; npos: nowhere.
@@ -99,25 +103,19 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
     Amendment out{effect.name, binding.equations, {}, {}, "", "", effect.summary};
     if (binding.roles[0].size() == 1 && model.signal_index(binding.roles[0].begin()->second) >= 0) out.against = binding.roles[0].begin()->second;
     for (const auto& [role, kind] : effect.roles) if (kind == "time" && model.signal_index(time_name(model)) < 0) out.time = time_name(model);
-    const auto unit_text = [&](std::string unit) {
-        replace_all(unit, "{equation}", binding.unit);
-        for (const auto& [role, filler] : binding.role_units) replace_all(unit, "{" + role + "}", filler);
-        return unit;
-    };
+    std::map<std::string, std::string> units = binding.role_units;
+    units["equation"] = binding.unit;
     for (const EffectParameter& p : effect.parameters) {
         const std::string name = fresh(p.name, model);
         for (std::string& term : terms) rename(term, p.name, name);
-        out.names.push_back({name, unit_text(p.unit), 0.0, p.not_negative, false});
+        out.names.push_back({name, filled(p.unit, units), 0.0, p.min, p.min && *p.min >= 0, false});
     }
     for (const EffectScan& s : effect.scans) {
         const std::string name = fresh(s.name, model);
         for (std::string& term : terms) rename(term, s.name, name);
-        out.names.push_back({name, unit_text(s.unit), scan, false, true});
+        out.names.push_back({name, filled(s.unit, units), scan, std::nullopt, false, true});
     }
-    for (std::size_t k = 0; k < terms.size(); ++k) {
-        for (const auto& [role, formula] : binding.roles[k]) replace_all(terms[k], "{" + role + "}", formula);
-        out.terms.push_back(terms[k]);
-    }
+    for (std::size_t k = 0; k < terms.size(); ++k) out.terms.push_back(filled(terms[k], binding.roles[k]));
     return out;
 }
 
@@ -149,11 +147,9 @@ std::string amended(const std::string& text, const model::Model& model, const Am
         const std::size_t where = n.constant ? constants : parameters;
         if (where != std::string::npos) {
             const bool needs_break = where == out.size() && !out.empty() && out.back() != '\n';
-            insertions.emplace_back(where, (needs_break ? "\n" : "") + entry_text(n, amendment.because));
+            insertions.emplace_back(where, fmt::format("{}{} = {{ {} }}   # {}\n", needs_break ? "\n" : "", n.name, fmt::join(keys_of(n), ", "), amendment.because));
         } else {
-            own_tables += std::string("\n[") + (n.constant ? "constants" : "parameters") + "." + n.name + "]   # " + amendment.because + "\n" + (n.constant ? "value = " : "initial = ") + fmt::format("{:.6g}", n.value) + "\n";
-            if (!n.unit.empty()) own_tables += "unit = \"" + n.unit + "\"\n";
-            if (n.not_negative) own_tables += "min = 0\n";
+            own_tables += fmt::format("\n[{}.{}]   # {}\n{}\n", n.constant ? "constants" : "parameters", n.name, amendment.because, fmt::join(keys_of(n), "\n"));
         }
     }
     std::stable_sort(insertions.begin(), insertions.end(), [](const auto& a, const auto& b) { return a.first > b.first; });

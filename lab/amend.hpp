@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A term added to a model file as a person would: the text stays as it is, the term and its parameters come in.
 #pragma once
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +14,9 @@ namespace algest::lab {
 struct NewName {
     std::string name;
     std::string unit;        ///< empty: left out
-    double value;            ///< initial value, or the constant's
-    bool not_negative;
+    double value;            ///< initial value, or the constant's; written no lower than min
+    std::optional<double> min;
+    bool not_negative;       ///< min is 0 or more
     bool constant;
 };
 

@@ -1,62 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/effects.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "generator/dimension.hpp"
 #include "generator/units.hpp"
+#include "lab/effect_file.hpp"
 #include "lab/roles.hpp"
 #include "lab/rotating_frame.hpp"
 
 namespace algest::lab {
 
-namespace {
-
 using units::Unit;
-
-std::string text_of(const toml::table& t, const char* key) { return t[key].value_or(std::string()); }
-
-std::optional<Effect> read_effect(const std::string& path, Diagnostics& diagnostics) {
-    try {
-        const toml::table root = toml::parse_file(path);
-        Effect e;
-        e.name = text_of(root, "name");
-        e.summary = text_of(root, "summary");
-        e.shows = text_of(root, "shows");
-        e.reference = text_of(root, "reference");
-        if (const toml::array* a = root["aliases"].as_array()) for (const auto& x : *a) e.aliases.push_back(x.value_or(std::string()));
-        if (const toml::array* a = root["enters"]["units"].as_array()) for (const auto& x : *a) e.units.push_back(x.value_or(std::string()));
-        e.outside = root["outside"].value_or(false);
-        e.together = root["enters"]["together"].value_or(false);
-        if (const toml::table* t = root["roles"].as_table()) for (const auto& [k, v] : *t) e.roles[std::string(k.str())] = v.value_or(std::string());
-        e.term = root["rewrite"]["term"].value_or(std::string());
-        e.d_term = root["rewrite"]["d"].value_or(std::string());
-        e.q_term = root["rewrite"]["q"].value_or(std::string());
-        if (const toml::array* a = root["parameter"].as_array()) {
-            for (const auto& x : *a) if (const toml::table* t = x.as_table()) e.parameters.push_back({text_of(*t, "name"), text_of(*t, "unit"), (*t)["min"].value<double>().has_value()});
-        }
-        if (const toml::array* a = root["scan"].as_array()) {
-            for (const auto& x : *a) if (const toml::table* t = x.as_table()) e.scans.push_back({text_of(*t, "name"), text_of(*t, "unit"), (*t)["from"].value_or(1.0), (*t)["to"].value_or(1.0), (*t)["step"].value_or(1.0), (*t)["spectrum"].value_or(false)});
-        }
-        if (const toml::array* a = root["rival"].as_array()) {
-            for (const auto& x : *a) if (const toml::table* t = x.as_table()) e.rivals.push_back({text_of(*t, "name"), text_of(*t, "experiment")});
-        }
-        if (e.name.empty() || e.term.empty() || e.parameters.empty() || e.units.empty()) {
-            diagnostics.error(path, {1, 1}, "an effect needs name, [enters] units, [rewrite] term and [[parameter]]", "see docs/discover.md");
-            return std::nullopt;
-        }
-        return e;
-    } catch (const toml::parse_error& error) {
-        diagnostics.error(path, {static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column)}, "not TOML: " + std::string(error.description()), "see docs/discover.md");
-        return std::nullopt;
-    }
-}
-
-}  // namespace
 
 std::vector<Effect> read_effects(const std::vector<std::string>& folders, Diagnostics& diagnostics) {
     std::map<std::string, Effect> by_name;
@@ -64,9 +21,13 @@ std::vector<Effect> read_effects(const std::vector<std::string>& folders, Diagno
         std::error_code error;
         std::set<std::string> files;
         for (const auto& entry : std::filesystem::directory_iterator(folder, error)) if (entry.path().extension() == ".toml") files.insert(entry.path().string());
+        std::map<std::string, std::string> here;   // name -> file
         for (const std::string& file : files) {
             auto effect = read_effect(file, diagnostics);
-            if (effect) by_name[effect->name] = std::move(*effect);
+            if (!effect) continue;
+            const auto [first, fresh] = here.emplace(effect->name, file);
+            if (fresh) by_name[effect->name] = std::move(*effect);
+            else diagnostics.error(file, effect->at, algest::quoted(effect->name) + " is an effect of " + first->second + " as well", "give each its own name, or remove one");
         }
     }
     std::vector<Effect> out;

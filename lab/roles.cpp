@@ -24,7 +24,7 @@ void find_highest(const formula::Formula& f, const model::Model& model, Moved& o
 
 bool fits(const Unit& unit, const std::string& wanted) {
     const auto w = Unit::parse(wanted);
-    return w && unit.known() && unit.same_dimension(*w);
+    return w && unit.same_dimension(*w);
 }
 
 Moved moved(const model::Model& model, const model::Equation& e) {
@@ -53,6 +53,12 @@ std::string time_name(const model::Model& model) {
     };
     for (const char* name : {"t", "time"}) if (!taken(name)) return name;
     return "recording_time";
+}
+
+const std::vector<RoleKind>& role_kinds() {
+    static const std::vector<RoleKind> kinds = {{"own", {}}, {"speed", {"rad/s", "m/s"}}, {"position", {"rad", "m"}}, {"angle", {"rad"}}, {"current", {"A"}},
+                                                {"any_speed", {"rad/s", "m/s"}}, {"input", {}}, {"time", {"s"}}};
+    return kinds;
 }
 
 std::vector<Filler> fillers(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured) {

@@ -28,13 +28,21 @@ constexpr const char* time_column = "t";
 /// The signal that stands for time: the model's own, else a name that is free for one.
 std::string time_name(const model::Model& model);
 
+/// A kind of role, and the units that what stands for it may have; empty: any.
+struct RoleKind {
+    std::string name;
+    std::vector<std::string> units;
+};
+/// All there are; docs/discover.md says what may stand for each.
+const std::vector<RoleKind>& role_kinds();
+
 /// A formula with its unit.
 struct Filler {
     std::string formula;
     std::string unit;
 };
 
-/// Everything that may stand for a role of this kind in an equation (docs/discover.md lists the kinds). measured: by signal.
+/// Everything that may stand for a role of this kind in an equation. measured: by signal.
 std::vector<Filler> fillers(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured);
 
 }  // namespace algest::lab

@@ -8,33 +8,13 @@
 #include <random>
 
 #include "generated/dc_motor/dc_motor.hpp"
+#include "tests/plants/dc_motor_model.hpp"
 #include "tests/plants/estimates.hpp"
 
 using namespace algest;
 using namespace algest::plants;
 
 namespace {
-
-std::string model(double window, const std::string& quadrature) {
-    return fmt::format(R"(format = 1
-name = "dc_motor"
-[sampling]
-period = 1e-3
-window = {}
-[signals]
-y = {{ unit = "rad" }}
-u = {{ unit = "V" }}
-[transfer]
-n = 3
-m = 0
-unknowns = ["a1", "a2", "b0"]
-known = {{ a0 = 0 }}
-[estimator]
-solve = "square"
-quadrature = "{}"
-)",
-                       window, quadrature);
-}
 
 std::vector<double> truth(const DcMotor& plant) { return {plant.a1, plant.a2, plant.b0}; }
 
@@ -56,7 +36,7 @@ TEST_CASE("DC motor, noise-free: quadrature at 0.8 s and 3 s") {
     const DcMotor plant;
     const std::vector<DcMotorSample> samples = simulate(plant, 3001);
     const auto error = [&](double window, const std::string& quadrature) {
-        return worst_error(at_first_fill(plan_of(model(window, quadrature)), samples), truth(plant));
+        return worst_error(at_first_fill(plan_of(dc_motor_model(window, quadrature)), samples), truth(plant));
     };
     fmt::print("DC motor, noise-free, worst of a1, a2, b0:\n");
     for (const double window : {0.15, 0.8, 3.0}) {
@@ -105,7 +85,7 @@ TEST_CASE("DC motor, uniform noise of 0.004 on y: medians over 200 seeds") {
         double window, error;
     };
     for (const Bar& bar : {Bar{1.5, 0.08}, Bar{2.0, 0.03}, Bar{3.0, 0.008}}) {  // errata.md
-        const plan::Plan plan = plan_of(model(bar.window, "exact"));
+        const plan::Plan plan = plan_of(dc_motor_model(bar.window, "exact"));
         std::vector<double> found;
         for (unsigned seed = 1; seed <= 200; ++seed) {
             std::mt19937_64 random(seed);

@@ -9,15 +9,6 @@
 
 namespace algest::gap {
 
-namespace {
-
-std::vector<double> scaled(std::vector<double> values, double factor, double offset = 0) {
-    for (double& v : values) v = offset + factor * v;
-    return values;
-}
-
-}  // namespace
-
 System dc_motor(const Wish& wish, Random& random, bool angle) {
     System s;
     s.summary = "brushed DC motor, open-loop voltage";

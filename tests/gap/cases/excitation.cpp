@@ -46,4 +46,9 @@ std::vector<double> excitation(Random& random, std::size_t samples, double perio
     return out;
 }
 
+std::vector<double> scaled(std::vector<double> values, double factor, double offset) {
+    for (double& v : values) v = offset + factor * v;
+    return values;
+}
+
 }  // namespace algest::gap

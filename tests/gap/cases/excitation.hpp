@@ -17,4 +17,7 @@ std::vector<double> steps(Random& random, std::size_t samples, double period, do
 /// One of: many sines and steps, a few sines, steps alone; between about -1 and 1.
 std::vector<double> excitation(Random& random, std::size_t samples, double period, double lowest, double highest);
 
+/// offset + factor times each value.
+std::vector<double> scaled(std::vector<double> values, double factor, double offset = 0);
+
 }  // namespace algest::gap

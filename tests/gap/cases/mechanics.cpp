@@ -10,15 +10,6 @@
 
 namespace algest::gap {
 
-namespace {
-
-std::vector<double> scaled(std::vector<double> values, double factor, double offset = 0) {
-    for (double& v : values) v = offset + factor * v;
-    return values;
-}
-
-}  // namespace
-
 System magnetic_bearing(const Wish&, Random& random) {
     System s;
     s.summary = "one-axis magnetic bearing, linearised force, stabilised by a known controller";

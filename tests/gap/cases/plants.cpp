@@ -11,11 +11,6 @@ namespace algest::gap {
 
 namespace {
 
-std::vector<double> scaled(std::vector<double> values, double factor, double offset = 0) {
-    for (double& v : values) v = offset + factor * v;
-    return values;
-}
-
 std::vector<double> above(std::vector<double> values, double least) {
     for (double& v : values) v = std::max(v, least);
     return values;

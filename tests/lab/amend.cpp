@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an amendment writes beside a new parameter: a bound by its value, and a start that keeps it.
+#include "lab/amend.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/lab/temporary_file.hpp"
+
+namespace {
+
+using namespace algest;
+
+constexpr const char* model_text = R"toml(name = "m"
+[signals]
+u = { unit = "N", initial = 0 }
+v = { unit = "m/s", initial = 0 }
+[parameters]
+m = { unit = "kg", initial = 1 }
+[[equation]]
+ode = "m*der(v) = u"
+)toml";
+
+constexpr const char* effect_text = R"toml(name = "drag"
+summary = "it drags"
+shows = "a line"
+reference = "none"
+[enters]
+units = ["N"]
+[roles]
+speed = "speed"
+[rewrite]
+kind = "add_term"
+term = "-b*{speed}"
+[[parameter]]
+name = "b"
+unit = "{equation}/({speed})"
+)toml";
+
+/// The amended text for an effect with these words behind its parameter, at a value that the fit found.
+std::string with(const std::string& bound, double value) {
+    Diagnostics said;
+    const auto model = model::read_from_text(model_text, "m.toml", false, said);
+    test::TemporaryFolder folder;
+    folder.write("drag.toml", effect_text + bound);
+    const auto effects = lab::read_effects({folder.path("")}, said);
+    for (const auto& d : said.sorted()) UNSCOPED_INFO(d.text());
+    REQUIRE(model);
+    REQUIRE(effects.size() == 1);
+    const auto places = lab::bindings(effects[0], *model, {true, true});
+    REQUIRE(places.size() == 1);
+    lab::Amendment a = lab::amendment(places[0], *model, 0);
+    a.names[0].value = value;
+    const std::string out = lab::amended(model_text, *model, a);
+    CHECK(model::read_from_text(out, "m.toml", true, said));   // an initial value outside of [min, max] would be an error
+    return out.substr(out.find("b = "), out.find(" }   #") - out.find("b = "));
+}
+
+}  // namespace
+
+TEST_CASE("a parameter's min goes into the amended model by its value, and its start does not lie below") {
+    CHECK(with("", -2.5) == "b = { initial = -2.5, unit = \"N/(m/s)\"");
+    CHECK(with("min = 0", -2.5) == "b = { initial = 0, unit = \"N/(m/s)\", min = 0");
+    CHECK(with("min = 0", 2.5) == "b = { initial = 2.5, unit = \"N/(m/s)\", min = 0");
+    CHECK(with("min = 0.125", 0) == "b = { initial = 0.125, unit = \"N/(m/s)\", min = 0.125");
+    CHECK(with("min = -3", -2.5) == "b = { initial = -2.5, unit = \"N/(m/s)\", min = -3");
+    // Six digits of 1.2345644 are less than it.
+    CHECK(with("min = 1.2345644", 1.23456445) == "b = { initial = 1.2345644, unit = \"N/(m/s)\", min = 1.2345644");
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The model file of the third-order DC motor with its choices open.
+#pragma once
+#include <fmt/format.h>
+
+#include <string>
+
+namespace algest::plants {
+
+/// The model of models/ with another window, s, and another quadrature.
+inline std::string dc_motor_model(double window, const std::string& quadrature = "exact") {
+    return fmt::format(R"(format = 1
+name = "dc_motor"
+[sampling]
+period = 1e-3
+window = {}
+[signals]
+y = {{ unit = "rad" }}
+u = {{ unit = "V" }}
+[transfer]
+n = 3
+m = 0
+unknowns = ["a1", "a2", "b0"]
+known = {{ a0 = 0 }}
+[estimator]
+solve = "square"
+quadrature = "{}"
+)",
+                       window, quadrature);
+}
+
+}  // namespace algest::plants
