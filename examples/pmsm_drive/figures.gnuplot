@@ -50,7 +50,7 @@ set output folder."/figure_4_velocity.svg"
 set multiplot layout 2,1 margins 0.10,0.97,0.11,0.90 spacing 0,0.08
 eval upper
 set ylabel "velocity [rad/s]"
-plot run using 1:5 every 10::1 with lines ls 1 title "measured", run using 1:4 every 10::1 with lines ls 2 title "reference", \
+plot run using 1:5 every 10::1 with lines ls 2 title "measured", run using 1:4 every 10::1 with lines ls 3 title "reference", \
      NaN ls 4 title "estimator is fed", NaN ls 5 title "controller is retuned"
 eval lower
 unset key
