@@ -45,15 +45,15 @@ do for [axis in "y z"] {
     set key
     eval upper
     set ylabel axis." [µm]"
-    plot run using 1:(column(wanted + 1)*1e6) every ::1 with lines ls 2 title "measured", \
-         run using 1:(column(wanted)*1e6) every ::1 with lines ls 6 title "reference", \
+    plot run using 1:(column(wanted + 1)*1e6) every 2::1 with lines ls 2 title "measured", \
+         run using 1:(column(wanted)*1e6) every 2::1 with lines ls 6 title "reference", \
          NaN ls 4 title "estimator is fed", NaN ls 5 title "controller is retuned"
     unset key
     set ylabel "error of ".axis." [µm]"
-    plot run using 1:((column(wanted) - column(wanted + 1))*1e6) every ::1 with lines ls 1
+    plot run using 1:((column(wanted) - column(wanted + 1))*1e6) every 2::1 with lines ls 1
     eval lower
     set ylabel "perturbation ".axis." [N]"
-    plot run using 1:(column(axis eq "y" ? 8 : 9)) every ::1 with lines ls 1
+    plot run using 1:(column(axis eq "y" ? 8 : 9)) every 2::1 with lines ls 1
     unset multiplot
 }
 

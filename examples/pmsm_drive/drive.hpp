@@ -56,14 +56,15 @@ inline std::vector<Instant> run(Hold hold) {
         const RotorFrame voltage = controller.command(wanted, current, state.omega);
         out.push_back({t, wanted, state, voltage, estimate, retuned});
 
-        if (t > fed_from - 0.5 * period && input.add(current, state.omega, voltage)) {
+        const double angle = motor.n_p * state.theta, rate = motor.n_p * state.omega;
+        const RotorFrame fed = hold == Hold::rotor_frame ? voltage : fed_for_stator_hold(voltage, rate, period);
+        if (t > fed_from - 0.5 * period && input.add(current, state.omega, fed)) {
             estimate = estimator.step(input.sample());
             if (estimate.status == algest::Status::ok) {
                 controller.retune(estimate.R, estimate.L, estimate.K);
                 retuned = true;
             }
         }
-        const double angle = motor.n_p * state.theta, rate = motor.n_p * state.omega;
         state = hold == Hold::rotor_frame
                     ? advance(motor, state, period, voltage)
                     : advance(motor, state, period, held_in_stator_frame(voltage, angle, rate, period));

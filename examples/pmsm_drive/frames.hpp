@@ -32,4 +32,13 @@ inline StatorFrame held_in_stator_frame(const RotorFrame& command, double angle,
     return to_stator_frame(command, angle + 0.5 * rate * period);
 }
 
+/// What an estimator with hold = "zoh" is fed for such a command. While it is held it turns by phi = rate period in the rotor
+/// frame, so that its mean is shorter by phi^2/24; and the currents bend between their samples, which the estimator takes for
+/// straight: that costs phi^2/12 the other way (docs/stator-frame.md). Arguments as above.
+inline RotorFrame fed_for_stator_hold(const RotorFrame& command, double rate, double period) {
+    const double phi = rate * period;
+    const double gain = 1.0 + phi * phi / 24.0;
+    return {gain * command.d, gain * command.q};
+}
+
 }  // namespace pmsm_drive

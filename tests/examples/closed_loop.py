@@ -38,6 +38,12 @@ class Run:
         return statistics.median(self.errors(parameter))
 
 
+def table_of_the_page(name):
+    """What docs/closed-loop.md shows as printed by an example."""
+    page = (SOURCE / "docs" / "closed-loop.md").read_text(encoding="utf-8")
+    return re.search(rf"```text {name}\n(.*?)```", page, flags=re.DOTALL)[1]
+
+
 def number(word):
     try:
         return float(word.removesuffix(" %"))

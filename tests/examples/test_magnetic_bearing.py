@@ -3,7 +3,7 @@
 import tempfile
 import unittest
 
-from closed_loop import Run, check_figures, check_manners
+from closed_loop import Run, check_figures, check_manners, table_of_the_page
 
 
 class MagneticBearing(unittest.TestCase):
@@ -35,6 +35,9 @@ class MagneticBearing(unittest.TestCase):
         check_figures(self, Run("magnetic_bearing", self.folder),
                       {"figure_8_estimates.svg": 1, "figure_9_tracking_y.svg": 3, "figure_10_tracking_z.svg": 3,
                        "figure_11_currents.svg": 2, "figure_12_path_before.svg": 1, "figure_13_path_after.svg": 1})
+
+    def test_the_page_shows_what_is_printed(self):
+        self.assertEqual(table_of_the_page("magnetic_bearing"), Run("magnetic_bearing", self.folder).text)
 
     def test_manners(self):
         check_manners(self, "magnetic_bearing", self.folder)

@@ -3,7 +3,7 @@
 import tempfile
 import unittest
 
-from closed_loop import Run, check_figures, check_manners
+from closed_loop import Run, check_figures, check_manners, table_of_the_page
 
 
 class PmsmDrive(unittest.TestCase):
@@ -43,6 +43,9 @@ class PmsmDrive(unittest.TestCase):
     def test_figures(self):
         check_figures(self, Run("pmsm_drive", self.folder),
                       {"figure_3_estimates.svg": 3, "figure_4_velocity.svg": 2, "figure_5_voltages.svg": 2})
+
+    def test_the_page_shows_what_is_printed(self):
+        self.assertEqual(table_of_the_page("pmsm_drive"), Run("pmsm_drive", self.folder).text)
 
     def test_manners(self):
         check_manners(self, "pmsm_drive", self.folder)
