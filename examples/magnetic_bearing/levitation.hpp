@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: 0BSD
-// The closed loop at 10 kHz: controller and estimator, which retunes the controller.
+// The closed loop at 10 kHz: noisy positions, controller and estimator, which retunes the controller.
 #pragma once
+#include <random>
 #include <vector>
 
 #include "controller.hpp"
@@ -9,9 +10,10 @@
 
 namespace magnetic_bearing {
 
-constexpr double period = 1e-4;    ///< s
-constexpr double fed_from = 0.36;  ///< s: the estimator gets its first sample
-constexpr double duration = 0.7;   ///< s
+constexpr double period = 1e-4;          ///< s
+constexpr double fed_from = 0.36;        ///< s: the estimator gets its first sample
+constexpr double duration = 0.7;         ///< s
+constexpr double position_noise = 5e-8;  ///< m, uniform, of both positions: that of a good eddy-current sensor
 
 struct Instant {
     double t;  ///< s
@@ -20,6 +22,7 @@ struct Instant {
     Vector perturbation;  ///< N, as the controller's observer sees it
     PerMagnet current;    ///< A, held from here on
     Estimator::Estimate estimate;
+    bool fed;      ///< the estimator gets samples
     bool retuned;  ///< the controller has had an estimate
 };
 
@@ -36,17 +39,22 @@ inline std::vector<Instant> run() {
 
     const Bearing bearing;
     const auto unknown_force = [](double) { return Vector{3.0, 8.0}; };  // N
+    std::mt19937 random(1);
+    const auto noise = [&] { return position_noise * (static_cast<double>(random()) / 2147483648.0 - 1.0); };
     State shaft;
     PerMagnet before{};
     std::vector<Instant> out;
     for (int k = 0; k < static_cast<int>(duration / period + 0.5); ++k) {
         const double t = k * period;
+        const bool fed = t > fed_from - 0.5 * period;
         const Reference wanted = reference(t);
-        const PerMagnet current = controller.currents(wanted, shaft.position);
-        out.push_back({t, wanted, shaft, controller.perturbation(), current, estimate, retuned});
+        const double noise_y = noise(), noise_z = noise();
+        const Vector position{shaft.position.y + noise_y, shaft.position.z + noise_z};
+        const PerMagnet current = controller.currents(wanted, position);
+        out.push_back({t, wanted, shaft, controller.perturbation(), current, estimate, fed, retuned});
 
-        if (t > fed_from - 0.5 * period) {
-            estimate = estimator.step(estimator_input(shaft.position, before, current));
+        if (fed) {
+            estimate = estimator.step(estimator_input(position, before, current));
             if (estimate.status == algest::Status::ok) {
                 controller.retune(lambda(estimate));
                 retuned = true;

@@ -50,7 +50,7 @@ bool write(const std::vector<Instant>& run, const std::string& path) {
            "lambda1 [N.m^2/A^2],lambda2 [N.m^2/A^2],lambda3 [N.m^2/A^2],"
            "true lambda1 [N.m^2/A^2],true lambda2 [N.m^2/A^2],true lambda3 [N.m^2/A^2]\n";
     for (const Instant& i : run) {
-        out << i.t << ',' << (i.t < fed_from ? "off" : algest::name(i.estimate.status)) << ',' << i.retuned << ','
+        out << i.t << ',' << (i.fed ? algest::name(i.estimate.status) : "off") << ',' << i.retuned << ','
             << i.wanted.position.y << ',' << i.shaft.position.y << ',' << i.wanted.position.z << ',' << i.shaft.position.z
             << ',' << i.perturbation.y << ',' << i.perturbation.z;
         for (const double current : i.current) out << ',' << current;

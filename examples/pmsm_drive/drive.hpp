@@ -28,6 +28,7 @@ struct Instant {
     State motor;
     RotorFrame voltage;  ///< V, held from here on
     algest::generated::PmsmElectrical::Estimate estimate;
+    bool fed;      ///< the estimator gets samples
     bool retuned;  ///< the controller has had an estimate
 };
 
@@ -50,15 +51,16 @@ inline std::vector<Instant> run(Hold hold) {
     std::vector<Instant> out;
     for (int k = 0; k < static_cast<int>(duration / period + 0.5); ++k) {
         const double t = k * period;
+        const bool fed = t > fed_from - 0.5 * period;
         const Reference wanted = reference(t);
         const double noise_d = noise(), noise_q = noise();
         const RotorFrame current{state.current.d + noise_d, state.current.q + noise_q};
         const RotorFrame voltage = controller.command(wanted, current, state.omega);
-        out.push_back({t, wanted, state, voltage, estimate, retuned});
+        out.push_back({t, wanted, state, voltage, estimate, fed, retuned});
 
         const double angle = motor.n_p * state.theta, rate = motor.n_p * state.omega;
-        const RotorFrame fed = hold == Hold::rotor_frame ? voltage : fed_for_stator_hold(voltage, rate, period);
-        if (t > fed_from - 0.5 * period && input.add(current, state.omega, fed)) {
+        const RotorFrame acting = hold == Hold::rotor_frame ? voltage : fed_for_stator_hold(voltage, rate, period);
+        if (fed && input.add(current, state.omega, acting)) {
             estimate = estimator.step(input.sample());
             if (estimate.status == algest::Status::ok) {
                 controller.retune(estimate.R, estimate.L, estimate.K);

@@ -47,10 +47,10 @@ bool write(const std::vector<Instant>& run, const std::string& path) {
     out << "t [s],status,retuned,wanted omega [rad/s],omega [rad/s],v_d [V],v_q [V],i_d [A],i_q [A],R [ohm],L [H],K [N.m/A],"
            "true R [ohm],true L [H],true K [N.m/A]\n";
     for (const Instant& i : run) {
-        out << i.t << ',' << (i.t < fed_from ? "off" : algest::name(i.estimate.status)) << ',' << i.retuned << ','
-            << i.wanted.omega << ',' << i.motor.omega << ',' << i.voltage.d << ',' << i.voltage.q << ',' << i.motor.current.d
-            << ',' << i.motor.current.q << ',' << i.estimate.R << ',' << i.estimate.L << ',' << i.estimate.K << ','
-            << truth.R << ',' << truth.L << ',' << truth.K << '\n';
+        out << i.t << ',' << (i.fed ? algest::name(i.estimate.status) : "off") << ',' << i.retuned << ',' << i.wanted.omega
+            << ',' << i.motor.omega << ',' << i.voltage.d << ',' << i.voltage.q << ',' << i.motor.current.d << ','
+            << i.motor.current.q << ',' << i.estimate.R << ',' << i.estimate.L << ',' << i.estimate.K << ',' << truth.R
+            << ',' << truth.L << ',' << truth.K << '\n';
     }
     out.close();
     if (out && std::rename(part.c_str(), path.c_str()) == 0) return true;

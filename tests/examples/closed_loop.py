@@ -2,7 +2,6 @@
 """Runs a closed-loop example as a user would, and reads what it prints, writes and draws."""
 import csv
 import re
-import statistics
 import subprocess
 from pathlib import Path
 
@@ -33,9 +32,6 @@ class Run:
         with self.csv.open(newline="", encoding="utf-8") as file:
             ok = [row for row in csv.DictReader(file) if row["status"] == "ok"]
         return [abs(float(row[parameter]) / float(row[f"true {parameter}"]) - 1.0) for row in ok]
-
-    def median_error(self, parameter):
-        return statistics.median(self.errors(parameter))
 
 
 def table_of_the_page(name):
