@@ -45,7 +45,7 @@ do for [axis in "y z"] {
     set key
     eval upper
     set ylabel axis." [µm]"
-    plot run using 1:(column(wanted + 1)*1e6) every 2::1 with lines ls 2 title "measured", \
+    plot run using 1:(column(wanted + 1)*1e6) every 2::1 with lines ls 2 title "shaft", \
          run using 1:(column(wanted)*1e6) every 2::1 with lines ls 6 title "reference", \
          NaN ls 4 title "estimator is fed", NaN ls 5 title "controller is retuned"
     unset key
@@ -82,6 +82,6 @@ set size ratio -1
 do for [part in "before after"] {
     from = part eq "before" ? 0.2 : 0.6
     set output folder.(part eq "before" ? "/figure_12_path_before.svg" : "/figure_13_path_after.svg")
-    plot run using ($1 >= from && $1 < from + 0.1 ? $5*1e6 : NaN):($7*1e6) every ::1 with lines ls 2 title "measured", \
-         run using ($1 >= from && $1 < from + 0.1 ? $4*1e6 : NaN):($6*1e6) every ::1 with lines ls 6 title "desired"
+    plot run using ($1 >= from && $1 < from + 0.1 ? $5*1e6 : NaN):($7*1e6) every ::1 with lines ls 2 title "shaft", \
+         run using ($1 >= from && $1 < from + 0.02 ? $4*1e6 : NaN):($6*1e6) every ::1 with lines ls 6 title "reference"
 }

@@ -9,7 +9,7 @@ from environment import BUILD, SOURCE, run
 from figures import faults, page_of, screenshot
 
 # Texts of the figures that are neither a number nor the label of an axis.
-LEGENDS = {"estimate", "truth", "measured", "reference", "desired", "estimator is fed", "controller is retuned", "i1", "i2", "i3", "λ1", "λ2", "λ3"}
+LEGENDS = {"estimate", "truth", "measured", "shaft", "reference", "estimator is fed", "controller is retuned", "i1", "i2", "i3", "λ1", "λ2", "λ3"}
 
 
 def program(name):
