@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: 0BSD
 // The closed loop: noisy currents, the controller at 10 kHz, the estimator at 1 kHz, which retunes the controller.
 #pragma once
-#include <cstdint>
 #include <random>
 #include <vector>
 
