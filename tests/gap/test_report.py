@@ -1,94 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """report.html of discover, opened in a browser: nothing overlaps or is cut, every axis has its unit, nothing comes from elsewhere."""
 import collections
-import html
-import itertools
 import json
 import os
 import re
-import shutil
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-from environment import ALGEST, BUILD, skip
+from environment import ALGEST, BUILD
+from figures import faults, measured, screenshot
 from hidden_motor import MODEL, recording
-
-BROWSER = shutil.which("chromium")
-if BROWSER is None:
-    skip("no chromium")
-if shutil.which("gnuplot") is None:
-    skip("no gnuplot")
 
 PICTURES = BUILD / "tests" / "report"
 HEADINGS = ["Doubts", "Error on the test stretch", "Measured and simulated, test stretch", "Residual of each equation over time",
             "Residual against the signal that explains it", "Where the model was off", "Evidence", "Parameters", "Change to the model", "Next"]
 # Texts of a figure that are neither a number nor the label of an axis.
 PLAIN = {"test stretch", "detail: the tinted part, where before is off most", "train", "test", "before", "after", "without the added terms, and their law"}
-NUMBER = re.compile(r"-?\d+(\.\d+)?")
-UNIT = re.compile(r".+ \[[^\]]+\]")
-MEASURE = """<script>
-const figures = [...document.querySelectorAll('figure')].map(figure => {
-  const svg = figure.querySelector('svg');
-  if (!svg) return {panels: Number(figure.dataset.panels), box: null, texts: []};
-  const box = element => { const r = element.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; };
-  return {panels: Number(figure.dataset.panels), box: box(svg),
-          texts: [...svg.querySelectorAll('text')].map(t => ({text: t.textContent.trim(), box: box(t), upright: t.getCTM().b !== 0}))
-                 .filter(t => t.text !== '')};   // numbers that an axis does not show
-});
-const page = document.documentElement;
-const out = document.createElement('pre');
-out.id = 'measured';
-out.textContent = JSON.stringify({figures, width: page.scrollWidth, shown: page.clientWidth, height: page.scrollHeight});
-document.body.append(out);
-</script>"""
-
-
-def browse(page, width, height, *options):
-    """Chromium on a page; its standard output. Its profile is thrown away; as root it has no sandbox."""
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        command = [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars", "--no-first-run",
-                   f"--user-data-dir={profile}", f"--window-size={width},{height}", *options, page.as_uri()]
-        return subprocess.run(command, text=True, capture_output=True, timeout=300, check=True).stdout
-
-
-def measured(page, width=1100):
-    """Boxes of all texts of all figures, in px, as the browser lays them out; the size of the page."""
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / "page.html"
-        copy.write_text(page.read_text(encoding="utf-8").replace("</body>", MEASURE + "</body>"), encoding="utf-8")
-        dom = browse(copy, width, 1000, "--dump-dom")
-    return json.loads(html.unescape(re.search(r'<pre id="measured">(.*?)</pre>', dom, flags=re.DOTALL)[1]))
-
-
-def overlap(a, b, slack=0.5):
-    return min(a[2], b[2]) - max(a[0], b[0]) > slack and min(a[3], b[3]) - max(a[1], b[1]) > slack
-
-
-def faults(page, width=1100):
-    """What is wrong with the figures of a page, a sentence each."""
-    found = []
-    sizes = measured(page, width)
-    if sizes["width"] > sizes["shown"]:
-        found.append(f"the page is {sizes['width']} px wide where {sizes['shown']} are shown")
-    for number, figure in enumerate(sizes["figures"], 1):
-        texts = figure["texts"]
-        for one, other in itertools.combinations(texts, 2):
-            if overlap(one["box"], other["box"]):
-                found.append(f"figure {number}: '{one['text']}' lies over '{other['text']}'")
-        edge = figure["box"]
-        for text in texts:
-            left, top, right, bottom = text["box"]
-            if left < edge[0] or top < edge[1] or right > edge[2] or bottom > edge[3]:
-                found.append(f"figure {number}: '{text['text']}' is cut")
-        labels = [t for t in texts if not NUMBER.fullmatch(t["text"]) and t["text"] not in PLAIN]
-        found += [f"figure {number}: '{t['text']}' has no unit" for t in labels if not UNIT.fullmatch(t["text"])]
-        if sum(t["upright"] for t in labels) != figure["panels"]:
-            found.append(f"figure {number}: {figure['panels']} panels, and other labels: {[t['text'] for t in labels]}")
-        if not any(not t["upright"] for t in labels):
-            found.append(f"figure {number}: no label across")
-    return found
 
 
 class Report(unittest.TestCase):
@@ -115,17 +44,14 @@ class Report(unittest.TestCase):
 
     def picture(self, page, name):
         for width, look in ((1100, ""), (1100, "dark"), (500, "narrow")):
-            height = measured(page, width)["height"]
-            picture = PICTURES / f"{name}{'-' + look if look else ''}.png"
-            browse(page, width, height, f"--screenshot={picture}", *(["--blink-settings=preferredColorScheme=0"] if look == "dark" else []))
-            self.assertGreater(picture.stat().st_size, 10000)
-            print("picture:", picture)
+            screenshot(page, PICTURES / f"{name}{'-' + look if look else ''}.png", width,
+                       *(["--blink-settings=preferredColorScheme=0"] if look == "dark" else []))
 
     def test_figures_are_legible(self):
         for page, figures in ((self.page, 4), (self.nothing, 2)):
             self.assertGreaterEqual(len(measured(page)["figures"]), figures)
             for width in (1100, 500):
-                self.assertEqual(faults(page, width), [])
+                self.assertEqual(faults(page, PLAIN, width), [])
         self.picture(self.page, "friction")
         self.picture(self.nothing, "nothing")
 
@@ -145,7 +71,7 @@ class Report(unittest.TestCase):
                 self.assertNotEqual(changed, text)
                 page = self.folder / "spoilt.html"
                 page.write_text(changed, encoding="utf-8")
-                self.assertTrue(any(fault in f for f in faults(page)), faults(page))
+                self.assertTrue(any(fault in f for f in faults(page, PLAIN)), faults(page, PLAIN))
 
     def test_the_page_stands_alone(self):
         for page in (self.page, self.nothing):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """After `cmake --install`: find_package(algest), algest_add_estimator, and what each component holds."""
+import re
+import shutil
 import tempfile
 import unittest
 from pathlib import Path
@@ -46,6 +48,18 @@ class Installed(unittest.TestCase):
         run("ninja", "-C", folder)
         self.assertNotEqual(header.read_bytes(), before)
         run(folder / "controller")
+
+    def test_a_copied_example_is_a_project_of_its_own(self):
+        install(self.folder / "prefix", "runtime", "host")
+        examples = sorted(file.parent for file in (SOURCE / "examples").glob("*/CMakeLists.txt"))
+        self.assertGreaterEqual(len(examples), 3)
+        for example in examples:
+            with self.subTest(example=example.name):
+                copied = Path(shutil.copytree(example, self.folder / example.name))
+                (model,) = set(re.findall(r"/models/(\w+\.toml)", (example / "CMakeLists.txt").read_text()))
+                shutil.copy(SOURCE / "models" / model, copied)
+                folder = build(copied, f"-DCMAKE_PREFIX_PATH={self.folder / 'prefix'}", f"-DCMAKE_CXX_COMPILER={CXX}")
+                self.assertTrue((folder / f"{example.name}_example").is_file())
 
 
 if __name__ == "__main__":
