@@ -2,6 +2,8 @@
 // The derivation of a plan: for the person who reviews a diff (Markdown), for a paper (LaTeX), for a program (JSON).
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "generator/annihilator.hpp"
 #include "generator/exact.hpp"
 #include "generator/formula.hpp"
@@ -76,13 +78,15 @@ std::string expansion_tex(const std::vector<plan::LeibnizTerm>& terms) {
     return sum.text();
 }
 
-/// The kernel in time: sum of c (t-tau)^gamma (-tau)^j / gamma! after division by s^(kappa+n+p).
+/// The kernel in time: sum of c (t-tau)^gamma (-tau)^j / gamma! after the division that makes it proper.
 std::string time_form(const Plan& plan, const plan::Table& table) {
     for (const plan::Equation& e : plan.equations) {
         if (e.n != table.n || e.kappa != table.kappa) continue;
+        const auto of_row = std::find_if(e.annihilated.begin(), e.annihilated.end(), [&](const plan::Annihilated& a) { return a.p == 0 || a.p == table.p; });
+        if (of_row == e.annihilated.end()) continue;
         SignedSum sum(" ", false);
-        for (const plan::LeibnizTerm& t : e.leibniz[static_cast<std::size_t>(table.derivative)]) {
-            const int gamma = annihilator::time_exponent(t.power, table.p, {table.n, table.kappa});
+        for (const plan::LeibnizTerm& t : of_row->leibniz[static_cast<std::size_t>(table.derivative)]) {
+            const int gamma = annihilator::time_exponent(t.power, table.p, {table.n, table.kappa, table.form});
             const std::string first = power_text("(t-tau)", gamma);
             const std::string second = power_text("(-tau)", t.derivative_in_s);
             std::string factor = first + (first.empty() || second.empty() ? "" : " ") + second;
@@ -103,8 +107,14 @@ std::string solve_text(const Plan& plan) {
     return "?";
 }
 
-std::string annihilator_text(const plan::Equation& e) {
+/// "3", or "(3+p-1)" where each row differentiates once more.
+std::string annihilator_order(const plan::Equation& e) {
     const std::string order = std::to_string(e.n + e.kappa);
+    return e.form == 1 ? order : "(" + order + "+p-1)";
+}
+
+std::string annihilator_text(const plan::Equation& e) {
+    const std::string order = annihilator_order(e);
     const std::string s = e.kappa == 0 ? "" : e.kappa == 1 ? " s" : " s^" + std::to_string(e.kappa);
     return "Pi = d^" + order + "/ds^" + order + s;
 }
@@ -116,6 +126,9 @@ Data common(const Plan& plan) {
     d.set("version", std::string(ALGEST_VERSION));
     d.set("name", plan.name);
     d.set("window", exact::decimal(window(plan)));
+    const bool second = !plan.equations.empty() && plan.equations.front().form == 2;
+    d.set("division", std::string(second ? "differentiates p-1 times more than row 1 and divides by s^(kappa+n+1)" : "divides by s^(kappa+n+p)"));
+    d.set("division_tex", std::string(second ? "differentiates $p-1$ times more than row 1 and is divided by $s^{\\kappa+n+1}$" : "is divided by $s^{\\kappa+n+p}$"));
     return d;
 }
 
@@ -131,7 +144,7 @@ Data equations_data(const Plan& plan) {
         q.set("ode_tex", sides ? formula::latex(sides->left) + " = " + formula::latex(sides->right) : e.ode);
         q.set("n", std::to_string(e.n));
         q.set("kappa", std::to_string(e.kappa));
-        q.set("order", std::to_string(e.n + e.kappa));
+        q.set("order", annihilator_order(e));
         q.set("way", e.divided ? "Divided by the leading coefficient " + e.leading + "." : std::string("Used as written: it is linear in the unknowns."));
         q.set("delayed", e.delayed);
         q.set("annihilator", annihilator_text(e));
@@ -146,12 +159,16 @@ Data equations_data(const Plan& plan) {
         }
         q.set("operators", listed(operators));
         DataList leibniz;
-        for (std::size_t i = 0; i < e.leibniz.size(); ++i) {
-            Data l;
-            l.set("i", std::to_string(i));
-            l.set("expansion", expansion(e.leibniz[i]));
-            l.set("expansion_tex", expansion_tex(e.leibniz[i]));
-            leibniz.push_back(l);
+        for (const plan::Annihilated& a : e.annihilated) {
+            for (std::size_t i = 0; i < a.leibniz.size(); ++i) {
+                Data l;
+                l.set("i", std::to_string(i) + (a.p == 0 ? "" : ", p = " + std::to_string(a.p)));
+                l.set("pi_tex", a.p == 0 ? std::string("\\Pi") : "\\Pi_{" + std::to_string(a.p) + "}");
+                l.set("power_tex", std::to_string(i));
+                l.set("expansion", expansion(a.leibniz[i]));
+                l.set("expansion_tex", expansion_tex(a.leibniz[i]));
+                leibniz.push_back(l);
+            }
         }
         q.set("leibniz", listed(leibniz));
         equations.push_back(q);
@@ -296,6 +313,7 @@ std::string derivation_json(const Plan& plan, bool weights) {
         q["name"] = equation.name;
         q["n"] = equation.n;
         q["kappa"] = equation.kappa;
+        q["form"] = equation.form;
         q["divided_by"] = equation.divided ? Json(equation.leading) : Json(nullptr);
         q["rows"] = Json::array();
         for (const plan::Row& row : plan.rows) {

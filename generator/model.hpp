@@ -81,7 +81,7 @@ struct Estimator {
     bool given = false;
     Position at;
     Functional functional = Functional::annihilator;
-    int form = 1;
+    int form = 1;                           ///< of the annihilator
     Solver solve = Solver::square;
     std::optional<Rational> solve_window;   ///< s
     Rational forgetting = 1;                ///< factor on the weight of old rows at each sample, least squares

@@ -35,9 +35,6 @@ void check_support(const toml::table& t, Reading& reading) {
     if (e.solve == Solver::elimination) {
         reading.file.error(*t.get("solve"), "elimination is not supported by this version", "use square, robust or least_squares");
     }
-    if (e.form == 2 && t.contains("form")) {
-        reading.file.error(*t.get("form"), "form 2 is not supported by this version", "use form = 1");
-    }
 }
 
 /// Complains where solve_window or the quadrature does not fit the sampling.

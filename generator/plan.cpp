@@ -126,10 +126,15 @@ private:
                 }
                 out.operators.push_back({text(coefficient, names), signal_text(e, product), forms_[e].order(product)});
             }
-            for (int i = 0; i <= out.n; ++i) {
-                std::vector<plan::LeibnizTerm> terms;
-                for (const auto& t : annihilator::leibniz_expansion(i, {out.n, out.kappa})) terms.push_back({exact::text(t.coefficient), t.power, t.derivative});
-                out.leibniz.push_back(terms);
+            out.form = model_.estimator.form;
+            for (const ChosenRow& row : rows_) {
+                if (row.equation != static_cast<int>(e) || (out.form == 1 && !out.annihilated.empty())) continue;
+                out.annihilated.push_back({out.form == 1 ? 0 : row.p, {}});
+                for (int i = 0; i <= out.n; ++i) {
+                    std::vector<plan::LeibnizTerm> terms;
+                    for (const auto& t : annihilator::leibniz_expansion(i, orders(e), row.p)) terms.push_back({exact::text(t.coefficient), t.power, t.derivative});
+                    out.annihilated.back().leibniz.push_back(terms);
+                }
             }
             plan_.equations.push_back(out);
         }
@@ -201,6 +206,8 @@ private:
         return static_cast<int>(plan_.window_signals.size()) - 1;
     }
 
+    annihilator::Orders orders(std::size_t e) const { return {forms_[e].n, model_.equations[e].kappa, model_.estimator.form}; }
+
     /// Derived once: every row and term of these orders has it.
     const kernel::Coefficients& kernel_of(int derivative, int p, annihilator::Orders orders) {
         const auto [at, fresh] = kernels_.try_emplace({derivative, p, orders.n, orders.kappa});
@@ -218,14 +225,15 @@ private:
         plan::Table out;
         out.n = n;
         out.kappa = kappa;
+        out.form = model_.estimator.form;
         out.derivative = derivative;
         out.p = p;
         out.hold = hold;
         const std::string kind = hold == plan::Hold::zoh ? "zoh"
                                  : plan_.quadrature == plan::Quadrature::exact ? "linear"
                                  : plan_.quadrature == plan::Quadrature::trapezoid ? "trapezoid" : "simpson";
-        out.name = "n" + std::to_string(n) + "_kappa" + std::to_string(kappa) + "_F_" + std::to_string(derivative) + "_" + std::to_string(p) + "_" + kind;
-        const kernel::Coefficients& k = kernel_of(derivative, p, {n, kappa});
+        out.name = "n" + std::to_string(n) + "_kappa" + std::to_string(kappa) + (out.form == 2 ? "_form2" : "") + "_F_" + std::to_string(derivative) + "_" + std::to_string(p) + "_" + kind;
+        const kernel::Coefficients& k = kernel_of(derivative, p, orders(e));
         for (const Rational& c : k) out.kernel.push_back(exact::text(c));
         if (options_.weights) out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
         plan_.tables.push_back(std::move(out));
@@ -252,7 +260,7 @@ private:
     plan::RowTerm row_term(std::size_t e, int p, int term, int unknown, const Rational& coefficient, const Rational& weight, TapeBuilder& tape) {
         const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term)].product;
         const int derivative = forms_[e].order(product);
-        const kernel::Coefficients& k = kernel_of(derivative, p, {forms_[e].n, model_.equations[e].kappa});
+        const kernel::Coefficients& k = kernel_of(derivative, p, orders(e));
         plan::RowTerm out;
         out.lumped = unknown;
         out.derivative = derivative;

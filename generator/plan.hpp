@@ -38,6 +38,7 @@ struct Table {
     std::string name;                  ///< of the functional, e.g. "F_1_2_linear": derivative, row p, hold
     int n;
     int kappa;
+    int form;                          ///< of the annihilator
     int derivative;
     int p;
     Hold hold;
@@ -70,6 +71,12 @@ struct LeibnizTerm {
     int derivative_in_s;
 };
 
+/// Pi applied to s^i Y(s), i = 0 .. n.
+struct Annihilated {
+    int p;                                           ///< the row that it belongs to; 0: all of them (form 1)
+    std::vector<std::vector<LeibnizTerm>> leibniz;   ///< by derivative order i
+};
+
 /// One product parameter * der(signal, order) of an equation brought to the form sum = 0.
 struct OperatorTerm {
     std::string parameter;   ///< text of the coefficient in lumped parameters and numbers, e.g. "Gamma2" or "-1"
@@ -86,7 +93,8 @@ struct Equation {
     std::string leading;     ///< that coefficient
     bool delayed;
     std::vector<OperatorTerm> operators;
-    std::vector<std::vector<LeibnizTerm>> leibniz;   ///< by derivative order i = 0 .. n
+    int form;                             ///< of the annihilator
+    std::vector<Annihilated> annihilated;
 };
 
 /// An unknown of the rows.

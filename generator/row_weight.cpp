@@ -94,7 +94,7 @@ std::optional<RowWeights> row_weights(const model::Model& model, const std::vect
     RowWeights out;
     for (const ChosenRow& row : rows) {
         const std::size_t e = static_cast<std::size_t>(row.equation);
-        const Rational norm2 = kernel::square_norm(annihilator::kernel(forms[e].n, row.p, {forms[e].n, model.equations[e].kappa}));
+        const Rational norm2 = kernel::square_norm(annihilator::kernel(forms[e].n, row.p, {forms[e].n, model.equations[e].kappa, model.estimator.form}));
         out.push_back(1 / exact::power_of_two_near_root(norm2 * size[e] * size[e]));
     }
     return out;

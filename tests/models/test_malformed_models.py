@@ -309,7 +309,6 @@ VALUES = [
     ("unknown solver", estimator('solve = ▸"cholesky"\n'), "square | robust | least_squares | elimination"),
     ("misspelt solver", estimator('solve = ▸"least_sqaures"\n'), "did you mean least_squares?"),
     ("solver of a later version", estimator('solve = ▸"elimination"\n'), "not supported by this version"),
-    ("form 2", estimator("form = ▸2\n"), "not supported by this version"),
     ("form 3", estimator("form = ▸3\n"), "whole number from 1 to 2"),
     ("unknown engine", estimator('engine = ▸"gpu"\n'), "fir | moments"),
     ("unknown quadrature", estimator('quadrature = ▸"romberg"\n'), "exact | trapezoid | simpson"),
