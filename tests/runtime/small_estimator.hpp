@@ -44,7 +44,13 @@ struct SmallData {
                      solve,
                      instants,
                      keep,
-                     S(1e12)};
+                     S(1e12),
+                     kept_samples(solve, instants, false, false),
+                     {},
+                     S(0),
+                     {},
+                     {},
+                     {}};
     }
     SmallData(const SmallData&) = delete;
     SmallData& operator=(const SmallData&) = delete;
@@ -57,7 +63,7 @@ public:
     explicit SmallEstimator(const SmallData<S>& data) : blueprint_(&data.blueprint) {
         const Blueprint<S>& b = *blueprint_;
         const auto sized = [](int n) { return std::vector<S>(static_cast<std::size_t>(n), S(0)); };
-        rings_ = sized(ring_scalars(small_signals, ring_length(b.solve, b.rows.samples)));
+        rings_ = sized(ring_scalars(small_signals, ring_length(b.rows.samples, b.kept)));
         sums_ = sized(sum_scalars(b.solve, small_unknowns, b.solve_instants));
         published_ = sized(published_scalars(b.solve, small_unknowns));
         reset();
