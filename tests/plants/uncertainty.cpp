@@ -103,6 +103,49 @@ TEST_CASE("uncertainty() is what changing every sample gives: square, overdeterm
     }
 }
 
+TEST_CASE("uncertainty() of signals that are one sample late is what changing every sample gives") {
+    const plan::Plan plan = plan_of(R"(format = 1
+name = "axis"
+[sampling]
+period = 1e-3
+window = 0.05
+[signals]
+q = { unit = "m", noise = 1e-5 }
+force = { unit = "N", hold = "zoh", noise = 0.5 }
+[parameters]
+M = { unit = "kg", initial = 90 }
+Fv = { unit = "N.s/m", initial = 200 }
+Fc = { unit = "N", initial = 20 }
+[[equation]]
+ode = "M*der(q,2) + Fv*der(q) + Fc*sgn(der(q)) = force"
+)");
+    for (const plan::NoiseChannel& c : plan.noise) CHECK(c.lag == 1);
+    constexpr int count = 52;   // the window, and the sample before it
+    const auto solved = [&](int changed_sample, std::size_t signal, double by) {
+        lab::HostEstimator<double> estimator(plan);
+        for (int k = 0; k < count; ++k) {
+            const double t = k * 1e-3;   // turns at 0.026 s, so that friction and damping part
+            std::array<double, 2> s{0.02 * std::sin(60.0 * t), -95.0 * 72.0 * std::sin(60.0 * t) + 240.0 * std::cos(60.0 * t) + (t < 0.026 ? 20.0 : -20.0) + 30.0 * std::sin(200.0 * t)};
+            if (k == changed_sample) s[signal] += by;
+            estimator.push(s.data());
+        }
+        REQUIRE(estimator.estimate() == Status::ok);
+        return estimator;
+    };
+    std::array<double, 3> variance{};
+    const std::array<double, 2> sigma{1e-5, 0.5};
+    for (std::size_t signal = 0; signal < 2; ++signal) {
+        for (int k = 0; k < count; ++k) {
+            const double step = 1e-3 * sigma[signal];
+            const auto up = solved(k, signal, step), down = solved(k, signal, -step);
+            for (std::size_t p = 0; p < 3; ++p) variance[p] += std::pow((up.parameters()[p] - down.parameters()[p]) / (2.0 * step) * sigma[signal], 2);
+        }
+    }
+    auto estimator = solved(-1, 0, 0.0);
+    REQUIRE(estimator.uncertainty() == Status::ok);
+    for (std::size_t p = 0; p < 3; ++p) CHECK(estimator.deviation()[p] == Approx(std::sqrt(variance[p])).epsilon(1e-4));   // square: exact but for the steps
+}
+
 TEST_CASE("the bias that noisy regressors cause is the mean error over many seeds") {
     for (const char* solve : {"", "solve = \"robust\"\nsolve_window = 0.02\n"}) {
         const plan::Plan plan = plan_of(changed(coil(solve), {{"noise = 1e-3", "noise = 6e-3"}, {"noise = 0.2", "noise = 0.4"}}));

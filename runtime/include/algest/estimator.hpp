@@ -270,9 +270,7 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
             }
         }
     } else {
-        const int size = packed_size(width);
-        for (int k = 0; k < n; ++k) {           // column k of S^-1
-            for (int i = 0; i < size; ++i) at.sums[i] = memory.published[then.slot * size + i];
+        for (int k = 0; k < n; ++k) {           // column k of S^-1, by the copy that the solve left: push may have moved on from the published one
             for (int i = 0; i < n; ++i) at.sums[packed_index(width, i, n)] = i == k ? S(1) : S(0);
             if (!solve_gram(at.sums, n, at.work, column).regular) return false;
             for (int u = 0; u < n; ++u) inverse[u * n + k] = column[u];
