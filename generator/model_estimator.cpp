@@ -48,6 +48,9 @@ void check_noise(const toml::table& t, Reading& reading) {
     asked("deviation_limit", e.deviation_limit.has_value());
     asked("uncertainty", e.uncertainty.value_or(false));
     asked("whiten", e.whiten && e.solve == Solver::square);
+    if (!e.uncertainty.value_or(true) && (e.whiten || e.deviation_limit)) {
+        reading.file.error(*t.get("uncertainty"), "uncertainty = false leaves out what whiten and deviation_limit need", "leave it out");
+    }
 }
 
 /// Complains about what a model may say and this version cannot do.

@@ -18,6 +18,7 @@
 #include "generator/lumping.hpp"
 #include "generator/model.hpp"
 #include "generator/names.hpp"
+#include "generator/noise_channels.hpp"
 #include "generator/perturbation.hpp"
 #include "generator/row_choice.hpp"
 #include "generator/row_weight.hpp"
@@ -56,7 +57,7 @@ public:
         tables_and_rows(*weights);
         unknowns_and_parameters();
         plan_.kept = kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
-        if (!noise_suffices()) return std::nullopt;
+        if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
         if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
         return std::move(plan_);
     }
@@ -291,89 +292,15 @@ private:
         row.terms.insert(row.terms.end(), known.begin(), known.end());
     }
 
-    /// Where the noise of the inputs goes: a channel per noisy input and window signal that it enters, with the partial derivative in the
-    /// factor where it is constant, else as a ring beside the windows.
     void noise(TapeBuilder& tape) {
         const model::Estimator& e = model_.estimator;
         if (e.solve == model::Solver::least_squares || !e.uncertainty.value_or(true)) return;
-        std::vector<int> rings;   // operation of each partial
-        for (std::size_t s = 0; s < model_.signals.size(); ++s) {
-            const auto& sigma = model_.signals[s].noise;
-            const int input = input_of_signal_[s];
-            if (input < 0 || !sigma || cln::zerop(*sigma)) continue;
-            // A mean over N samples has a deviation of sigma/sqrt(N), the halves of its ends aside.
-            const Rational size = plan_.decimate == 1 ? *sigma : *sigma * *exact::function_value("sqrt", Rational(1) / plan_.decimate);
-            for (std::size_t w = 0; w < window_operations_.size(); ++w) {
-                if (tape.partial(window_operations_[w], plan::Op::derivative, input) >= 0) {
-                    through_a_filter_ = model_.signals[s].name;
-                    return forget_noise();
-                }
-                for (const plan::Op reads : {plan::Op::input, plan::Op::previous}) {
-                    const int partial = tape.partial(window_operations_[w], reads, input);
-                    if (partial < 0) continue;
-                    plan::NoiseChannel channel{input, static_cast<int>(w), -1, reads == plan::Op::previous && plan_.decimate == 1 ? 1 : 0, 0.0};
-                    const auto constant = tape.constant_value(partial);
-                    channel.factor = exact::nearest(constant ? *constant * size : size, plan_.scalar);
-                    if (!constant) {
-                        channel.partial = static_cast<int>(std::find(rings.begin(), rings.end(), partial) - rings.begin());
-                        if (channel.partial == static_cast<int>(rings.size())) {
-                            rings.push_back(partial);
-                            plan_.partials.push_back("d(" + plan_.window_signals[w].text + ")/d(" + model_.signals[s].name + ")");
-                        }
-                    }
-                    plan_.noise.push_back(channel);
-                }
-            }
+        noise_ = noise_channels(model_, input_of_signal_, window_operations_, plan_.scalar, tape);
+        plan_.noise = noise_.channels;
+        for (const NoiseChannels::Partial& p : noise_.partials) {
+            plan_.partials.push_back("d(" + plan_.window_signals[static_cast<std::size_t>(p.signal)].text + ")/d(" + plan_.inputs[static_cast<std::size_t>(p.input)].name + ")");
+            tape.result(p.operation);
         }
-        for (const int partial : rings) tape.result(partial);
-    }
-
-    void forget_noise() {
-        plan_.noise.clear();
-        plan_.partials.clear();
-    }
-
-    /// What is asked of the noise can be had; notes what is not.
-    bool noise_suffices() {
-        const model::Estimator& e = model_.estimator;
-        if (!through_a_filter_.empty()) {
-            const std::string what = "the noise of '" + through_a_filter_ + "' goes through the parabola filter into a window: its uncertainty is not known";
-            if (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit) {
-                diagnostics_.error(model_.path, e.at, what, "leave out uncertainty, whiten and deviation_limit, or the noise of that signal");
-                return false;
-            }
-            plan_.notes.push_back(what);
-        }
-        if (plan_.whiten && plan_.rows.size() == plan_.lumped.size()) {
-            plan_.notes.push_back("whiten changes nothing: there are as many rows as unknowns");
-            plan_.whiten = false;
-        }
-        if (plan_.whiten && !whitening_is_possible()) return false;
-        if (!plan_.uncertain()) plan_.deviation_limit = 0.0;
-        if (plan_.uncertain() && plan_.solve == algest::Solve::square && plan_.deviation_limit == 0.0) {
-            plan_.notes.push_back("no deviation_limit: where the rows are nearly singular noise may move an ok estimate far; deviation_limit = 0.1 makes such estimates singular");
-        }
-        return true;
-    }
-
-    /// Every row has noise of its own, and the unknowns a value to start from.
-    bool whitening_is_possible() {
-        const Position at = model_.estimator.at;
-        for (const plan::Row& row : plan_.rows) {
-            const auto noisy = [&](const plan::RowTerm& t) {
-                return std::any_of(plan_.noise.begin(), plan_.noise.end(), [&](const plan::NoiseChannel& c) { return c.signal == t.signal; });
-            };
-            if (std::any_of(row.terms.begin(), row.terms.end(), noisy)) continue;
-            diagnostics_.error(model_.path, at, "rows of equation '" + plan_.equations[static_cast<std::size_t>(row.equation)].name + "' have no noise, and whitening divides by it",
-                               "declare noise = ... for a measured signal of it, or leave whiten out");
-            return false;
-        }
-        for (const plan::Lumped& u : plan_.lumped) {
-            if (std::isfinite(u.initial)) continue;
-            diagnostics_.error(model_.path, at, "whitening starts from the initial values, and " + u.meaning + " has none", "declare initial = ... for every parameter");
-            return false;
-        }
-        return true;
     }
 
     plan::RowTerm row_term(std::size_t e, Kind kind, int term, int unknown, const Rational& coefficient, const Rational& weight, TapeBuilder& tape) {
@@ -544,7 +471,7 @@ private:
     std::vector<int> input_of_signal_;
     std::map<std::array<int, 5>, kernel::Coefficients> kernels_;   // by derivative, p, perturbation, n, kappa
     std::vector<int> window_operations_;                           // of the signals' tape, by window signal
-    std::string through_a_filter_;                                 // a noisy signal whose derivative a window holds
+    NoiseChannels noise_;
     plan::Plan plan_;
 };
 
