@@ -342,14 +342,14 @@ private:
             operations[k] = map.quotient(*lumping_.inverse[k]);
             map.result(operations[k]);
         }
-        perturbations(map, operations, unknowns, parameters);
+        perturbations(map, operations);
         plan_.parameter_map = map.finish();
         if (plan_.uncertain()) derivatives_of_the_map();
     }
 
     /// The rows were divided by the leading coefficient: what they say of a perturbation is multiplied by it.
-    void perturbations(TapeBuilder& map, const std::vector<int>& operations, const std::vector<std::string>& unknowns, const std::vector<std::string>& parameters) {
-        int residual = static_cast<int>(unknowns.size());
+    void perturbations(TapeBuilder& map, const std::vector<int>& operations) {
+        int residual = static_cast<int>(plan_.lumped.size());
         for (std::size_t e = 0; e < forms_.size(); ++e) {
             const model::Equation& equation = model_.equations[e];
             const lumping::LumpedEquation& lumped = lumping_.equations[e];
@@ -361,11 +361,10 @@ private:
                 const int coefficient = map.input(residual);
                 map.result(lumped.divided ? map.times(coefficient, leading) : coefficient);
                 const std::string name = equation.kappa == 1 ? equation.perturbation : equation.perturbation + std::to_string(i);
-                const std::string power = i == 1 ? "" : i == 2 ? " t" : " t^" + std::to_string(i - 1) + "/" + std::to_string(i - 1) + "!";
-                plan_.parameters.push_back({name, of_coefficient.known() ? of_coefficient.text() : "",
-                                            "coefficient of" + (power.empty() ? " 1" : power) + " in the perturbation of '" + equation.name + "', t from the oldest sample of the window on" +
-                                                (lumped.divided ? ", times " + text(lumped.leading, parameters) : ""),
-                                            0.0, true});
+                const std::string power = i == 1 ? "1" : i == 2 ? "t" : "t^" + std::to_string(i - 1) + "/" + std::to_string(i - 1) + "!";
+                const std::string what = equation.kappa == 1 ? "constant perturbation of '" + equation.name + "' on the window"
+                                                             : "coefficient of " + power + " in the perturbation of '" + equation.name + "', t from the oldest sample of the window on";
+                plan_.parameters.push_back({name, of_coefficient.known() ? of_coefficient.text() : "", what, 0.0, true});
             }
         }
     }
