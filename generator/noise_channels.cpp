@@ -71,12 +71,15 @@ bool noise_suffices(const model::Model& model, const std::string& through_a_filt
         }
         plan.notes.push_back(what);
     }
+    if (!plan.uncertain() && through_a_filter.empty() && (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit)) {
+        diagnostics.error(model.path, e.at, "the declared noise enters no row", "declare noise = ... for the signals that the equations measure");
+        return false;
+    }
     if (plan.whiten && plan.rows.size() == plan.lumped.size()) {
         plan.notes.push_back("whiten changes nothing: there are as many rows as unknowns");
         plan.whiten = false;
     }
     if (plan.whiten && !whitening_is_possible(model, plan, diagnostics)) return false;
-    if (!plan.uncertain()) plan.deviation_limit = 0.0;
     if (plan.uncertain() && plan.solve == algest::Solve::square && plan.deviation_limit == 0.0) {
         plan.notes.push_back("no deviation_limit: where the rows are nearly singular noise may move an ok estimate far; deviation_limit = 0.1 makes such estimates singular");
     }
