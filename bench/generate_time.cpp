@@ -186,9 +186,9 @@ void time_model(int m, const std::string& algest, const fs::path& folder) {
               (void)generator::row_weights(*model, f, *l, *r, d);
           }));
     std::vector<kernel::Coefficients> kernels;
-    for (const plan::Table& t : plan->tables) kernels.push_back(annihilator::kernel(t.derivative, t.p, {t.n, t.kappa}));
+    for (const plan::Table& t : plan->tables) kernels.push_back(annihilator::kernel(t.derivative, t.p, {t.n, t.kappa, t.form}));
     print("  kernels by Pi, Leibniz and division, once a table", time_of([&] {
-              for (const plan::Table& t : plan->tables) (void)annihilator::kernel(t.derivative, t.p, {t.n, t.kappa});
+              for (const plan::Table& t : plan->tables) (void)annihilator::kernel(t.derivative, t.p, {t.n, t.kappa, t.form});
           }));
     print("  weights: exact integrals, rounded", time_of([&] {
               for (std::size_t k = 0; k < kernels.size(); ++k)

@@ -33,7 +33,7 @@ ordered_json summary_json(const ReplayOptions& options, const plan::Plan& plan, 
                               {"unit", plan.parameters[p].unit},
                               {"last", number_or_null(summary.last[p])},
                               {"median", number_or_null(summary.median[p])},
-                              {"sd", nullptr}});
+                              {"sd", number_or_null(summary.deviation[p])}});
     }
     ordered_json status = ordered_json::object();
     for (std::size_t s = 0; s < summary.count.size(); ++s) status[name(static_cast<Status>(s))] = summary.count[s];
@@ -52,10 +52,12 @@ std::string number_text(std::optional<double> value) { return value ? fmt::forma
 std::string summary_text(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary) {
     std::size_t width = std::string("parameter").size();
     for (const plan::Parameter& p : plan.parameters) width = std::max(width, p.name.size());
-    std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {}\n", "parameter", width, "last", "median", "unit");
+    const bool deviations = std::any_of(summary.deviation.begin(), summary.deviation.end(), [](const auto& d) { return d.has_value(); });
+    const auto sd = [&](const std::string& text) { return deviations ? fmt::format("{:>12}  ", text) : std::string(); };
+    std::string out = fmt::format("{:<{}}  {:>12}  {}{:>12}  {}\n", "parameter", width, "last", sd("sd"), "median", "unit");
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
-        out += fmt::format("{:<{}}  {:>12}  {:>12}  {}\n", plan.parameters[p].name, width, number_text(summary.last[p]),
-                           number_text(summary.median[p]), plan.parameters[p].unit);
+        out += fmt::format("{:<{}}  {:>12}  {}{:>12}  {}\n", plan.parameters[p].name, width, number_text(summary.last[p]),
+                           sd(number_text(summary.deviation[p])), number_text(summary.median[p]), plan.parameters[p].unit);
     }
     out += fmt::format("\n{} samples, {:.6g} s to {:.6g} s:", replay.samples(), replay.t.front(), replay.t.back());
     for (std::size_t s = 0; s < summary.count.size(); ++s) {
@@ -85,10 +87,15 @@ int replay(const ReplayOptions& options) {
     if (!plan || !recording) return fail(diagnostics, options.json);
     for (const std::string& text : plan->notes) diagnostics.note(options.model, text);
 
-    const auto replay = [&] {
+    auto replay = [&] {
         ProgressLine progress("replay");
         return lab::replay(*plan, *recording, stretch, diagnostics, [&](double share) { progress.show(share); });
     }();
+    if (replay) {
+        constexpr std::size_t deviations_in_csv = 500;
+        ProgressLine progress("standard deviations");
+        lab::add_deviations(*plan, *recording, options.output.empty() ? 1 : deviations_in_csv, *replay, [&](double share) { progress.show(share); });
+    }
     if (!replay) return fail(diagnostics, options.json);
     if (!options.output.empty() && !lab::write_file(options.output, lab::replay_csv(*plan, *replay), diagnostics)) {
         return fail(diagnostics, options.json);

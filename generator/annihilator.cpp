@@ -24,9 +24,9 @@ std::vector<GiNaC::ex> differentiated(std::vector<GiNaC::ex> factors, const GiNa
 
 }  // namespace
 
-std::vector<LeibnizTerm> leibniz_expansion(int i, Orders orders) {
+std::vector<LeibnizTerm> leibniz_expansion(int i, Orders orders, int p) {
     const GiNaC::symbol s("s");
-    const std::vector<GiNaC::ex> factors = differentiated({GiNaC::pow(s, orders.kappa + i)}, s, orders.kappa + orders.n);
+    const std::vector<GiNaC::ex> factors = differentiated({GiNaC::pow(s, orders.kappa + i)}, s, derivatives(p, orders));
     std::vector<LeibnizTerm> out;
     for (std::size_t j = 0; j < factors.size(); ++j) {
         const GiNaC::ex factor = factors[j].expand();
@@ -40,12 +40,12 @@ std::vector<LeibnizTerm> leibniz_expansion(int i, Orders orders) {
 
 bool annihilates(int power, Orders orders) {
     const GiNaC::symbol s("s");
-    return GiNaC::ex(GiNaC::pow(s, orders.kappa + power)).diff(s, static_cast<unsigned>(orders.kappa + orders.n)).expand().is_zero();
+    return GiNaC::ex(GiNaC::pow(s, orders.kappa + power)).diff(s, static_cast<unsigned>(derivatives(1, orders))).expand().is_zero();
 }
 
 std::vector<KernelTerm> kernel_terms(int i, int p, Orders orders) {
     std::vector<KernelTerm> out;
-    for (const LeibnizTerm& term : leibniz_expansion(i, orders)) {
+    for (const LeibnizTerm& term : leibniz_expansion(i, orders, p)) {
         out.push_back({term.coefficient, time_exponent(term.power, p, orders), term.derivative});
     }
     return out;

@@ -11,62 +11,23 @@
 
 namespace algest::plan {
 
-/// The arrays behind a Blueprint, and its numbers.
+/// The arrays behind a RowSet.
 template <class S>
-struct BlueprintData {
-    int samples;   ///< in a window, M + 1
-    int signals;   ///< rings
-    int rows;      ///< per instant
-    int unknowns;  ///< columns without the known side
-    algest::Solve solve;
-    int solve_instants;
-    S keep;
-    S condition_limit;
-    std::vector<S> tables;  ///< tables x samples, oldest sample first
+struct RowData {
+    int rows;
     std::vector<algest::Functional> functionals;
     std::vector<algest::Term<S>> terms;  ///< grouped by functional, within it in order of rows
-
-    /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
-    algest::Blueprint<S> view() const {
-        return {{samples,
-                 signals,
-                 rows,
-                 unknowns,
-                 {tables.data(), static_cast<int>(tables.size())},
-                 {functionals.data(), static_cast<int>(functionals.size())},
-                 {terms.data(), static_cast<int>(terms.size())}},
-                solve,
-                solve_instants,
-                keep,
-                condition_limit};
-    }
 };
 
 /// Functionals are the distinct pairs (table, window signal) in the order in which rows and their terms first use them; the
-/// terms on the constant 1 share one without a table. The known side goes to column `unknowns`. Numbers of the plan are
-/// already rounded to its scalar, so converting them to that scalar changes nothing.
+/// terms on the constant 1 share one without a table. The known side goes to column `unknowns`.
 /// Cost: terms x functionals comparisons, once.
 template <class S>
-BlueprintData<S> make_blueprint(const Plan& plan) {
-    BlueprintData<S> data{plan.samples(),
-                          static_cast<int>(plan.window_signals.size()),
-                          static_cast<int>(plan.rows.size()),
-                          static_cast<int>(plan.lumped.size()),
-                          plan.solve,
-                          plan.solve_instants,
-                          static_cast<S>(plan.keep),
-                          static_cast<S>(plan.condition_limit),
-                          {},
-                          {},
-                          {}};
-    data.tables.reserve(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
-    for (const Table& table : plan.tables) {
-        for (const double weight : table.weights) data.tables.push_back(static_cast<S>(weight));
-    }
-
+RowData<S> make_rows(const std::vector<Row>& rows, int unknowns) {
+    RowData<S> data{static_cast<int>(rows.size()), {}, {}};
     std::vector<std::vector<algest::Term<S>>> terms_of;  // by functional
-    for (std::size_t r = 0; r < plan.rows.size(); ++r) {
-        for (const RowTerm& term : plan.rows[r].terms) {
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        for (const RowTerm& term : rows[r].terms) {
             const bool constant = term.signal < 0;
             const std::uint16_t table = constant ? algest::no_table : static_cast<std::uint16_t>(term.table);
             const std::uint16_t signal = constant ? std::uint16_t{0} : static_cast<std::uint16_t>(term.signal);
@@ -78,7 +39,7 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
                 data.functionals.push_back({table, signal, 0, 0});
                 terms_of.emplace_back();
             }
-            const int column = term.lumped < 0 ? data.unknowns : term.lumped;
+            const int column = term.lumped < 0 ? unknowns : term.lumped;
             terms_of[f].push_back(
                 {static_cast<std::uint16_t>(r), static_cast<std::uint16_t>(column), static_cast<S>(term.factor)});
         }
@@ -87,6 +48,98 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
         data.functionals[f].first_term = static_cast<std::uint16_t>(data.terms.size());
         data.functionals[f].terms = static_cast<std::uint16_t>(terms_of[f].size());
         data.terms.insert(data.terms.end(), terms_of[f].begin(), terms_of[f].end());
+    }
+    return data;
+}
+
+/// The arrays behind a Blueprint, and its numbers.
+template <class S>
+struct BlueprintData {
+    int samples;   ///< in a window, M + 1
+    int signals;   ///< rings: window signals, then partial derivatives
+    int unknowns;  ///< columns without the known side
+    algest::Solve solve;
+    int solve_instants;
+    S keep;
+    S condition_limit;
+    int kept;
+    S deviation_limit;
+    std::vector<S> tables;  ///< tables x samples, oldest sample first
+    RowData<S> rows;
+    RowData<S> perturbation;
+    std::vector<int> noisy;   ///< inputs with noise
+    std::vector<algest::NoiseChannel<S>> noise;
+    std::vector<S> whiten_at;
+    algest::LowPass<S> ratio;
+
+    /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
+    algest::Blueprint<S> view() const {
+        return {row_set(rows),
+                solve,
+                solve_instants,
+                keep,
+                condition_limit,
+                kept,
+                {static_cast<int>(noisy.size()), {noise.data(), static_cast<int>(noise.size())}},
+                deviation_limit,
+                {whiten_at.data(), static_cast<int>(whiten_at.size())},
+                ratio,
+                row_set(perturbation)};
+    }
+
+private:
+    algest::RowSet<S> row_set(const RowData<S>& of) const {
+        return {samples,
+                signals,
+                of.rows,
+                unknowns,
+                {tables.data(), static_cast<int>(tables.size())},
+                {of.functionals.data(), static_cast<int>(of.functionals.size())},
+                {of.terms.data(), static_cast<int>(of.terms.size())}};
+    }
+};
+
+/// Numbers of the plan are already rounded to its scalar, so converting them to that scalar changes nothing.
+template <class S>
+BlueprintData<S> make_blueprint(const Plan& plan) {
+    const int unknowns = static_cast<int>(plan.lumped.size());
+    BlueprintData<S> data{plan.samples(),
+                          plan.rings(),
+                          unknowns,
+                          plan.solve,
+                          plan.solve_instants,
+                          static_cast<S>(plan.keep),
+                          static_cast<S>(plan.condition_limit),
+                          plan.kept,
+                          static_cast<S>(plan.deviation_limit),
+                          {},
+                          make_rows<S>(plan.rows, unknowns),
+                          make_rows<S>(plan.perturbation, unknowns),
+                          {},
+                          {},
+                          {},
+                          {}};
+    data.tables.reserve(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
+    for (const Table& table : plan.tables) {
+        for (const double weight : table.weights) data.tables.push_back(static_cast<S>(weight));
+    }
+    for (const NoiseChannel& channel : plan.noise) {
+        if (data.noisy.empty() || data.noisy.back() != channel.input) data.noisy.push_back(channel.input);
+        const int ring = static_cast<int>(plan.window_signals.size()) + channel.partial;
+        data.noise.push_back({static_cast<std::uint16_t>(data.noisy.size() - 1), static_cast<std::uint16_t>(channel.signal),
+                              channel.partial < 0 ? algest::no_partial : static_cast<std::uint16_t>(ring),
+                              static_cast<std::uint16_t>(channel.lag), static_cast<S>(channel.factor)});
+    }
+    if (plan.whiten) {
+        for (const Lumped& u : plan.lumped) data.whiten_at.push_back(static_cast<S>(u.initial));
+    }
+    if (plan.ratio) {
+        const auto s = [](double x) { return static_cast<S>(x); };
+        const std::vector<double>& t = plan.ratio->transition;
+        data.ratio = {true,
+                      {s(t[0]), s(t[1]), s(t[2]), s(t[3])},
+                      {s(plan.ratio->before[0]), s(plan.ratio->before[1])},
+                      {s(plan.ratio->now[0]), s(plan.ratio->now[1])}};
     }
     return data;
 }

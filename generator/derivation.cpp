@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The derivation of a plan: for the person who reviews a diff (Markdown), for a paper (LaTeX), for a program (JSON).
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 #include "generator/annihilator.hpp"
 #include "generator/exact.hpp"
@@ -76,13 +80,16 @@ std::string expansion_tex(const std::vector<plan::LeibnizTerm>& terms) {
     return sum.text();
 }
 
-/// The kernel in time: sum of c (t-tau)^gamma (-tau)^j / gamma! after division by s^(kappa+n+p).
+/// The kernel in time: sum of c (t-tau)^gamma (-tau)^j / gamma! after the division that makes it proper.
 std::string time_form(const Plan& plan, const plan::Table& table) {
     for (const plan::Equation& e : plan.equations) {
+        if (table.perturbation > 0) return "coefficient c_" + std::to_string(table.perturbation) + " of the perturbation, from rows with kappa = 0";
         if (e.n != table.n || e.kappa != table.kappa) continue;
+        const auto of_row = std::find_if(e.annihilated.begin(), e.annihilated.end(), [&](const plan::Annihilated& a) { return a.p == 0 || a.p == table.p; });
+        if (of_row == e.annihilated.end()) continue;
         SignedSum sum(" ", false);
-        for (const plan::LeibnizTerm& t : e.leibniz[static_cast<std::size_t>(table.derivative)]) {
-            const int gamma = annihilator::time_exponent(t.power, table.p, {table.n, table.kappa});
+        for (const plan::LeibnizTerm& t : of_row->leibniz[static_cast<std::size_t>(table.derivative)]) {
+            const int gamma = annihilator::time_exponent(t.power, table.p, {table.n, table.kappa, table.form});
             const std::string first = power_text("(t-tau)", gamma);
             const std::string second = power_text("(-tau)", t.derivative_in_s);
             std::string factor = first + (first.empty() || second.empty() ? "" : " ") + second;
@@ -96,28 +103,46 @@ std::string time_form(const Plan& plan, const plan::Table& table) {
 
 std::string solve_text(const Plan& plan) {
     switch (plan.solve) {
-        case Solve::square: return plan.rows.size() == plan.lumped.size() ? "square, the rows of one instant" : "least squares of the rows of one instant";
-        case Solve::robust: return "robust, S(t) over " + std::to_string(plan.solve_instants) + " instants";
+        case Solve::square:
+            if (plan.rows.size() == plan.lumped.size()) return "square, the rows of one instant";
+            return std::string("least squares of the rows of one instant") + (plan.whiten ? ", whitened with the covariance of their residuals at the last ok estimate" : "");
+        case Solve::robust:
+            return "robust, S(t) over " + std::to_string(plan.solve_instants) + " instants" +
+                   (plan.ratio ? "; numerators and det S(t) through omega_n^2/(s^2 + 2 zeta omega_n s + omega_n^2), omega_n = " + exact::decimal(exact::from_text(plan.ratio->omega_n)) + " rad/s, zeta = " +
+                                     exact::decimal(exact::from_text(plan.ratio->zeta))
+                               : "");
         case Solve::least_squares: return plan.keep == 1.0 ? "least squares over all rows since reset" : "least squares over all rows since reset, with forgetting";
     }
     return "?";
 }
 
-std::string annihilator_text(const plan::Equation& e) {
+/// "3", or "(3+p-1)" where each row differentiates once more.
+std::string annihilator_order(const plan::Equation& e) {
     const std::string order = std::to_string(e.n + e.kappa);
+    return e.form == 1 ? order : "(" + order + "+p-1)";
+}
+
+std::string annihilator_text(const plan::Equation& e) {
+    const std::string order = annihilator_order(e);
     const std::string s = e.kappa == 0 ? "" : e.kappa == 1 ? " s" : " s^" + std::to_string(e.kappa);
     return "Pi = d^" + order + "/ds^" + order + s;
 }
 
-Rational window(const Plan& plan) { return exact::from_text(plan.period_text) * plan.intervals; }
+Rational window(const Plan& plan) { return exact::from_text(plan.period_text) * plan.decimate * plan.intervals; }
 
 Data common(const Plan& plan) {
     Data d;
     d.set("version", std::string(ALGEST_VERSION));
     d.set("name", plan.name);
     d.set("window", exact::decimal(window(plan)));
+    const bool second = !plan.equations.empty() && plan.equations.front().form == 2;
+    d.set("division", std::string(second ? "differentiates p-1 times more than row 1 and divides by s^(kappa+n+1)" : "divides by s^(kappa+n+p)"));
+    d.set("division_tex", std::string(second ? "differentiates $p-1$ times more than row 1 and is divided by $s^{\\kappa+n+1}$" : "is divided by $s^{\\kappa+n+p}$"));
     return d;
 }
+
+/// The names of the perturbation's coefficients, by its rows.
+std::string perturbation_name(const Plan& plan, std::size_t row) { return plan.parameters[static_cast<std::size_t>(plan.estimated()) + row].name; }
 
 std::string signal_of(const Plan& plan, const plan::RowTerm& term) { return term.signal < 0 ? "1" : plan.window_signals[static_cast<std::size_t>(term.signal)].text; }
 
@@ -131,7 +156,7 @@ Data equations_data(const Plan& plan) {
         q.set("ode_tex", sides ? formula::latex(sides->left) + " = " + formula::latex(sides->right) : e.ode);
         q.set("n", std::to_string(e.n));
         q.set("kappa", std::to_string(e.kappa));
-        q.set("order", std::to_string(e.n + e.kappa));
+        q.set("order", annihilator_order(e));
         q.set("way", e.divided ? "Divided by the leading coefficient " + e.leading + "." : std::string("Used as written: it is linear in the unknowns."));
         q.set("delayed", e.delayed);
         q.set("annihilator", annihilator_text(e));
@@ -146,12 +171,16 @@ Data equations_data(const Plan& plan) {
         }
         q.set("operators", listed(operators));
         DataList leibniz;
-        for (std::size_t i = 0; i < e.leibniz.size(); ++i) {
-            Data l;
-            l.set("i", std::to_string(i));
-            l.set("expansion", expansion(e.leibniz[i]));
-            l.set("expansion_tex", expansion_tex(e.leibniz[i]));
-            leibniz.push_back(l);
+        for (const plan::Annihilated& a : e.annihilated) {
+            for (std::size_t i = 0; i < a.leibniz.size(); ++i) {
+                Data l;
+                l.set("i", std::to_string(i) + (a.p == 0 ? "" : ", p = " + std::to_string(a.p)));
+                l.set("pi_tex", a.p == 0 ? std::string("\\Pi") : "\\Pi_{" + std::to_string(a.p) + "}");
+                l.set("power_tex", std::to_string(i));
+                l.set("expansion", expansion(a.leibniz[i]));
+                l.set("expansion_tex", expansion_tex(a.leibniz[i]));
+                leibniz.push_back(l);
+            }
         }
         q.set("leibniz", listed(leibniz));
         equations.push_back(q);
@@ -181,6 +210,7 @@ Data unknowns_data(const Plan& plan) {
 Data parameters_data(const Plan& plan) {
     DataList parameters;
     for (const plan::Parameter& p : plan.parameters) {
+        if (p.perturbation) continue;   // its rows are shown
         Data d;
         d.set("parameter", p.name);
         d.set("unit", p.unit.empty() ? std::string("not declared") : p.unit);
@@ -201,7 +231,7 @@ Data kernels_data(const Plan& plan) {
         d.set("polynomial", text(in_sigma(t.kernel), {"sigma"}));
         d.set("polynomial_tex", latex(in_sigma(t.kernel), {"sigma"}));
         d.set("derivative", std::to_string(t.derivative));
-        d.set("p", std::to_string(t.p));
+        d.set("p", t.perturbation > 0 ? "c_{" + std::to_string(t.perturbation) + "}" : std::to_string(t.p));
         d.set("kernel_n", std::to_string(t.n));
         d.set("kernel_kappa", std::to_string(t.kappa));
         kernels.push_back(d);
@@ -209,35 +239,16 @@ Data kernels_data(const Plan& plan) {
     return listed(kernels);
 }
 
-}  // namespace
-
-std::string derivation_text(const Plan& plan) {
-    Data d = common(plan);
-    d.set("summary", plan.summary);
-    d.set("has_summary", !plan.summary.empty());
-    d.set("source", plan.source);
-    d.set("has_source", !plan.source.empty());
-    d.set("period", exact::decimal(exact::from_text(plan.period_text)));
-    d.set("intervals", std::to_string(plan.intervals));
-    d.set("samples", std::to_string(plan.samples()));
-    d.set("solve_text", solve_text(plan));
-    DataList notes;
-    for (const std::string& n : plan.notes) {
-        Data note;
-        note.set("note", n);
-        notes.push_back(note);
-    }
-    d.set("notes", listed(notes));
-    d.set("equations", equations_data(plan));
-    d.set("unknowns", unknowns_data(plan));
-    d.set("parameters", parameters_data(plan));
+/// Rows as tables of terms; those of a perturbation have a name instead of p.
+Data rows_data(const Plan& plan, const std::vector<plan::Row>& of) {
     DataList rows;
-    for (std::size_t r = 0; r < plan.rows.size(); ++r) {
-        const plan::Row& row = plan.rows[r];
+    for (std::size_t r = 0; r < of.size(); ++r) {
+        const plan::Row& row = of[r];
         Data q;
         q.set("row", std::to_string(r + 1));
         q.set("row_equation", plan.equations[static_cast<std::size_t>(row.equation)].name);
         q.set("p", std::to_string(row.p));
+        q.set("coefficient_name", row.p > 0 ? std::string() : perturbation_name(plan, r));
         DataList terms;
         for (const plan::RowTerm& t : row.terms) {
             Data w;
@@ -251,7 +262,45 @@ std::string derivation_text(const Plan& plan) {
         q.set("terms", listed(terms));
         rows.push_back(q);
     }
-    d.set("rows", listed(rows));
+    return listed(rows);
+}
+
+}  // namespace
+
+std::string derivation_text(const Plan& plan) {
+    Data d = common(plan);
+    d.set("summary", plan.summary);
+    d.set("has_summary", !plan.summary.empty());
+    d.set("source", plan.source);
+    d.set("has_source", !plan.source.empty());
+    d.set("period", exact::decimal(exact::from_text(plan.period_text)));
+    d.set("intervals", std::to_string(plan.intervals));
+    d.set("means", plan.decimate == 1 ? std::string() : " of means over " + std::to_string(plan.decimate) + " periods");
+    d.set("samples", std::to_string(plan.samples()));
+    d.set("solve_text", solve_text(plan));
+    DataList notes;
+    for (const std::string& n : plan.notes) {
+        Data note;
+        note.set("note", n);
+        notes.push_back(note);
+    }
+    d.set("notes", listed(notes));
+    d.set("equations", equations_data(plan));
+    d.set("unknowns", unknowns_data(plan));
+    d.set("parameters", parameters_data(plan));
+    d.set("rows", rows_data(plan, plan.rows));
+    d.set("perturbations", rows_data(plan, plan.perturbation));
+    d.set("has_perturbation", !plan.perturbation.empty());
+    DataList noise;
+    for (const plan::NoiseChannel& c : plan.noise) {
+        Data n;
+        n.set("from", plan.inputs[static_cast<std::size_t>(c.input)].name);
+        n.set("into", plan.window_signals[static_cast<std::size_t>(c.signal)].text);
+        n.set("size", c.partial < 0 ? fmt::format("{:.6g}", std::abs(c.factor)) : fmt::format("{:.6g} times d({})/d({})", c.factor, plan.window_signals[static_cast<std::size_t>(c.signal)].text, plan.inputs[static_cast<std::size_t>(c.input)].name));
+        noise.push_back(n);
+    }
+    d.set("noise", listed(noise));
+    d.set("uncertain", plan.uncertain());
     d.set("kernels", kernels_data(plan));
     return render("report/derivation.md.mustache", d);
 }
@@ -261,6 +310,7 @@ std::string derivation_latex(const Plan& plan) {
     std::string name_tex;
     for (const char c : plan.name) name_tex += c == '_' ? std::string("\\_") : std::string(1, c);
     d.set("name_tex", name_tex);
+    d.set("has_perturbation", !plan.perturbation.empty());
     d.set("equations", equations_data(plan));
     d.set("unknowns", unknowns_data(plan));
     d.set("parameters", parameters_data(plan));
@@ -278,6 +328,23 @@ std::string derivation_latex(const Plan& plan) {
         q.set("known_side", known_side.text());
         rows.push_back(q);
     }
+    for (std::size_t r = 0; r < plan.perturbation.size(); ++r) {
+        const plan::Row& row = plan.perturbation[r];
+        SignedSum all("\\,", true);
+        int coefficient = 1;
+        for (const plan::RowTerm& t : row.terms) {
+            if (t.table >= 0) coefficient = plan.tables[static_cast<std::size_t>(t.table)].perturbation;
+            const std::string functional = "C_{" + std::to_string(t.derivative) + "," + std::to_string(coefficient) + "}\\left[" + tex_of(signal_of(plan, t)) + "\\right]";
+            const Rational c = exact::from_text(t.coefficient);
+            if (t.lumped < 0) all.add(-c, functional);
+            else all.add(c, formula::latex_name(plan.lumped[static_cast<std::size_t>(t.lumped)].name) + "\\," + functional);
+        }
+        const plan::Equation& equation = plan.equations[static_cast<std::size_t>(row.equation)];
+        Data q;
+        q.set("unknown_side", formula::latex_name(perturbation_name(plan, r)) + (equation.divided ? " / (" + tex_of(equation.leading) + ")" : ""));
+        q.set("known_side", (coefficient > 1 ? "T^{-" + std::to_string(coefficient - 1) + "}\\left(" : "") + all.text() + (coefficient > 1 ? "\\right)" : ""));
+        rows.push_back(q);
+    }
     d.set("rows", listed(rows));
     d.set("kernels", kernels_data(plan));
     return render("report/derivation.tex.mustache", d);
@@ -289,6 +356,8 @@ std::string derivation_json(const Plan& plan, bool weights) {
     out["name"] = plan.name;
     out["window_s"] = exact::nearest(window(plan), plan::Scalar::float64);
     out["samples"] = plan.samples();
+    out["decimate"] = plan.decimate;
+    out["solve"] = solve_text(plan);
     out["equations"] = Json::array();
     for (std::size_t e = 0; e < plan.equations.size(); ++e) {
         const plan::Equation& equation = plan.equations[e];
@@ -296,13 +365,10 @@ std::string derivation_json(const Plan& plan, bool weights) {
         q["name"] = equation.name;
         q["n"] = equation.n;
         q["kappa"] = equation.kappa;
+        q["form"] = equation.form;
         q["divided_by"] = equation.divided ? Json(equation.leading) : Json(nullptr);
-        q["rows"] = Json::array();
-        for (const plan::Row& row : plan.rows) {
-            if (row.equation != static_cast<int>(e)) continue;
-            Json r;
-            r["p"] = row.p;
-            r["terms"] = Json::array();
+        const auto terms_of = [&](const plan::Row& row) {
+            Json terms = Json::array();
             for (const plan::RowTerm& t : row.terms) {
                 Json term;
                 term["parameter"] = t.lumped < 0 ? Json(nullptr) : Json(plan.lumped[static_cast<std::size_t>(t.lumped)].name);
@@ -315,16 +381,27 @@ std::string derivation_json(const Plan& plan, bool weights) {
                     for (const double w : kernel::weights(coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar)) list.push_back(exact::hexadecimal(w));
                     term["weights"] = std::move(list);
                 }
-                r["terms"].push_back(std::move(term));
+                terms.push_back(std::move(term));
             }
-            q["rows"].push_back(std::move(r));
+            return terms;
+        };
+        q["rows"] = Json::array();
+        for (const plan::Row& row : plan.rows) {
+            if (row.equation == static_cast<int>(e)) q["rows"].push_back({{"p", row.p}, {"terms", terms_of(row)}});
+        }
+        q["perturbation"] = Json::array();
+        for (std::size_t r = 0; r < plan.perturbation.size(); ++r) {
+            const plan::Row& row = plan.perturbation[r];
+            if (row.equation == static_cast<int>(e)) q["perturbation"].push_back({{"name", perturbation_name(plan, r)}, {"unit", plan.parameters[static_cast<std::size_t>(plan.estimated()) + r].unit}, {"terms", terms_of(row)}});
         }
         out["equations"].push_back(std::move(q));
     }
     out["unknowns"] = Json::array();
     for (const plan::Lumped& u : plan.lumped) out["unknowns"].push_back({{"name", u.name}, {"meaning", u.meaning}});
     out["parameters"] = Json::array();
-    for (const plan::Parameter& p : plan.parameters) out["parameters"].push_back({{"name", p.name}, {"unit", p.unit}, {"from", p.from}});
+    for (const plan::Parameter& p : plan.parameters) {
+        if (!p.perturbation) out["parameters"].push_back({{"name", p.name}, {"unit", p.unit}, {"from", p.from}});
+    }
     return out.dump(2) + "\n";
 }
 

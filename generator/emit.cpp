@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plan -> the files that a user compiles: data for the templates under templates/cpp.
+#include <algorithm>
 #include <cmath>
 
+#include "algest/boxcar.hpp"
 #include "generator/blueprint.hpp"
 #include "generator/exact.hpp"
 #include "generator/generate.hpp"
@@ -123,11 +125,17 @@ private:
 /// Scalars and bytes of one instance, as the class lays them out (estimator.hpp.mustache).
 int instance_bytes(const Plan& plan) {
     const int unknowns = static_cast<int>(plan.lumped.size());
-    const int signals = static_cast<int>(plan.window_signals.size());
-    int scalars = ring_scalars(signals, ring_length(plan.solve, plan.samples())) + sum_scalars(plan.solve, unknowns, plan.solve_instants) +
+    const int signals = plan.rings();
+    int scalars = ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + sum_scalars(plan.solve, unknowns, plan.solve_instants) +
                   published_scalars(plan.solve, unknowns);
     scalars += 2 + static_cast<int>(plan.parameters.size());   // Estimate: status padded to a scalar, condition, parameters
+    if (plan.whiten) scalars += unknowns;
+    if (plan.ratio) scalars += ratio_scalars(true, unknowns);
     int bytes = static_cast<int>(sizeof(Progress));
+    if (plan.decimate > 1) {
+        scalars += boxcar_scalars(signals);
+        bytes += static_cast<int>(sizeof(BoxcarProgress));
+    }
     if (plan.delayed()) {
         scalars += static_cast<int>(plan.inputs.size());
         for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
@@ -153,7 +161,20 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("hash", hash);
     d.set("abi", std::to_string(ALGEST_RUNTIME_ABI));
     d.set("samples", std::to_string(plan.samples()));
-    d.set("signals", std::to_string(plan.window_signals.size()));
+    d.set("signals", std::to_string(plan.rings()));
+    d.set("window_signals", std::to_string(plan.window_signals.size()));
+    d.set("kept", std::to_string(plan.kept));
+    d.set("perturbation_rows", std::to_string(plan.perturbation.size()));
+    d.set("lumped_count", std::to_string(plan.lumped.size() + plan.perturbation.size()));
+    d.set("most_rows", std::to_string(std::max(plan.rows.size(), plan.perturbation.size())));
+    d.set("decimate", std::to_string(plan.decimate));
+    d.set("decimated", plan.decimate > 1);
+    d.set("uncertain", plan.uncertain());
+    d.set("whitened", plan.whiten);
+    d.set("ratio", plan.ratio.has_value());
+    d.set("limited_deviation", plan.deviation_limit > 0.0);
+    d.set("deviation_limit_text", exact::decimal(exact::from_double(plan.deviation_limit)));
+    d.set("has_perturbation", !plan.perturbation.empty());
     d.set("rows", std::to_string(plan.rows.size()));
     d.set("unknowns", std::to_string(plan.lumped.size()));
     d.set("instants", std::to_string(plan.solve_instants));
@@ -162,12 +183,31 @@ Data head(const Plan& plan, const std::string& hash) {
 }
 
 void set_cost(const Plan& plan, Data& d) {
-    int dots = 0;
-    for (const Functional& f : plan::make_blueprint<double>(plan).functionals) dots += f.table != no_table ? 1 : 0;
-    const int macs = dots * plan.samples();
+    const auto blueprint = plan::make_blueprint<double>(plan);
+    const auto multiply_adds = [&](const plan::RowData<double>& rows) {
+        int dots = 0;
+        for (const Functional& f : rows.functionals) dots += f.table != no_table ? 1 : 0;
+        return dots * plan.samples();
+    };
+    const int macs = multiply_adds(blueprint.rows);
     const bool square = plan.solve == Solve::square;
     d.set("push_macs", std::to_string(square ? 0 : macs));
-    d.set("estimate_macs", std::to_string(square ? macs : 0));
+    d.set("estimate_macs", std::to_string((square ? macs : 0) + multiply_adds(blueprint.perturbation)));
+    const int rows = static_cast<int>(plan.rows.size());
+    const int unknowns = static_cast<int>(plan.lumped.size());
+    if (plan.uncertain()) {
+        // A noisy signal's sample at the rows of every instant that stands for a block of S(t), as propagate_noise counts.
+        int noisy_terms = 0;
+        for (const plan::NoiseChannel& c : plan.noise) {
+            for (const Functional& f : blueprint.rows.functionals) noisy_terms += f.table != no_table && f.signal == c.signal ? f.terms : 0;
+        }
+        const long samples = static_cast<long>(plan.samples()) * node_count(plan.solve_instants);
+        const long noisy = static_cast<long>(blueprint.noisy.size());
+        d.set("uncertainty_macs", std::to_string(samples * (noisy_terms + noisy * rows * unknowns * (unknowns + 1)) + (square ? macs : macs * node_count(plan.solve_instants))));
+        d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan)));
+        d.set("whiten_macs", std::to_string(static_cast<long>(plan.samples()) * (noisy_terms + noisy * rows * (rows + unknowns))));
+    }
+    d.set("spare", std::to_string(spare_samples));
     d.set("overtaken", std::to_string(square ? spare_samples : published_slots - 1));
     d.set("size", std::to_string(instance_bytes(plan)));
     d.set("table_bytes", std::to_string(static_cast<int>(plan.tables.size()) * plan.samples() * scalar_bytes(plan)));
@@ -207,11 +247,12 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
     });
     d.set("signal_lines", signals.lines());
     DataList windows;
-    for (std::size_t k = 0; k < plan.window_signals.size(); ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(plan.rings()); ++k) {
+        const bool signal = k < plan.window_signals.size();
         Data w;
         w.set("value", signals.results()[k]);
-        w.set("text", plan.window_signals[k].text);
-        w.set("delayed_signal", plan.window_signals[k].delayed);
+        w.set("text", signal ? plan.window_signals[k].text : plan.partials[k - plan.window_signals.size()]);
+        w.set("delayed_signal", signal && plan.window_signals[k].delayed);
         windows.push_back(w);
     }
     d.set("signals_list", listed(windows));
@@ -220,16 +261,44 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
     d.set("map_lines", map.lines());
     d.set("libm", signals.uses_libm() || map.uses_libm());
     DataList parameters;
+    DataList estimated;
     std::string names;
     for (std::size_t k = 0; k < plan.parameters.size(); ++k) {
         const plan::Parameter& p = plan.parameters[k];
         Data i;
         i.set("name", p.name);
-        i.set("unit", unit_text(p.unit) + (p.from == p.name ? "" : " = " + p.from));
+        i.set("unit", unit_text(p.unit) + (p.from == p.name ? "" : (p.perturbation ? ": " : " = ") + p.from));
+        i.set("unit_alone", unit_text(p.unit));
         i.set("initial", literal(p.initial, plan));
         i.set("value", map.results()[k]);
         parameters.push_back(i);
+        if (p.perturbation) continue;
+        estimated.push_back(i);
         names += (names.empty() ? "" : ", ") + p.name;
+    }
+    d.set("estimated", listed(estimated));
+    DataList held;
+    for (int k = 0; k < plan.rings(); ++k) {
+        Data i;
+        i.set("flag", std::string(k < static_cast<int>(plan.window_signals.size()) && plan.window_signals[static_cast<std::size_t>(k)].held ? "1" : "0"));
+        held.push_back(i);
+    }
+    d.set("held_list", listed(held));
+    if (plan.uncertain()) {
+        const PrintedTape derivatives(plan.map_derivatives, plan, "d", [](Op, int k) { return "lumped[" + std::to_string(k) + "]"; });
+        d.set("derivative_lines", derivatives.lines());
+        const std::size_t gradients = static_cast<std::size_t>(plan.estimated()) * plan.lumped.size();
+        DataList gradient;
+        DataList curvature;
+        for (std::size_t k = 0; k < derivatives.results().size(); ++k) {
+            Data i;
+            i.set("value", derivatives.results()[k]);
+            (k < gradients ? gradient : curvature).push_back(i);
+        }
+        d.set("gradient", listed(gradient));
+        d.set("curvature", listed(curvature));
+        d.set("gradient_count", std::to_string(gradient.size()));
+        d.set("curvature_count", std::to_string(curvature.size()));
     }
     d.set("parameters", listed(parameters));
     d.set("parameter_count", std::to_string(plan.parameters.size()));
@@ -262,6 +331,39 @@ std::string with_weights(const std::string& rendered, const Plan& plan) {
     return out;
 }
 
+/// The functionals and terms of rows, under names with a prefix.
+void set_rows(const Plan& plan, const plan::RowData<double>& rows, const std::string& prefix, Data& d) {
+    DataList functionals;
+    for (const Functional& f : rows.functionals) {
+        Data i;
+        const bool constant = f.table == no_table;
+        i.set("table", constant ? std::string("no_table") : std::to_string(f.table));
+        i.set("signal", std::to_string(f.signal));
+        i.set("first", std::to_string(f.first_term));
+        i.set("count", std::to_string(f.terms));
+        i.set("text", constant ? std::string("of the constant 1") : plan.tables[f.table].name + " of " + plan.window_signals[f.signal].text);
+        functionals.push_back(i);
+    }
+    d.set(prefix + "functionals", listed(functionals));
+    d.set(prefix + "functional_count", std::to_string(rows.functionals.size()));
+    DataList terms;
+    for (const Term<double>& term : rows.terms) {
+        Data i;
+        i.set("row", std::to_string(term.row));
+        i.set("column", std::to_string(term.column));
+        i.set("factor", literal(term.factor, plan));
+        terms.push_back(i);
+    }
+    d.set(prefix + "terms", listed(terms));
+    d.set(prefix + "term_count", std::to_string(rows.terms.size()));
+}
+
+std::string joined(const std::vector<double>& numbers, const Plan& plan) {
+    std::string out;
+    for (const double x : numbers) out += (out.empty() ? "" : ", ") + literal(x, plan);
+    return out;
+}
+
 std::string tables_header(const Plan& plan, const std::string& hash) {
     Data d = head(plan, hash);
     DataList tables;
@@ -278,31 +380,28 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
     d.set("weight_count", std::to_string(plan.tables.size() * static_cast<std::size_t>(plan.samples())));
 
     const auto blueprint = plan::make_blueprint<double>(plan);
-    DataList functionals;
-    for (const Functional& f : blueprint.functionals) {
+    set_rows(plan, blueprint.rows, "", d);
+    set_rows(plan, blueprint.perturbation, "perturbation_", d);
+    DataList channels;
+    for (const NoiseChannel<double>& c : blueprint.noise) {
         Data i;
-        const bool constant = f.table == no_table;
-        i.set("table", constant ? std::string("no_table") : std::to_string(f.table));
-        i.set("signal", std::to_string(f.signal));
-        i.set("first", std::to_string(f.first_term));
-        i.set("count", std::to_string(f.terms));
-        i.set("text", constant ? std::string("of the constant 1") : plan.tables[f.table].name + " of " + plan.window_signals[f.signal].text);
-        functionals.push_back(i);
+        i.set("input", std::to_string(c.input));
+        i.set("signal", std::to_string(c.signal));
+        i.set("partial", c.partial == no_partial ? std::string("no_partial") : std::to_string(c.partial));
+        i.set("lag", std::to_string(c.lag));
+        i.set("factor", literal(c.factor, plan));
+        i.set("text", plan.inputs[static_cast<std::size_t>(blueprint.noisy[c.input])].name + " in " + plan.window_signals[c.signal].text);
+        channels.push_back(i);
     }
-    d.set("functionals", listed(functionals));
-    d.set("functional_count", std::to_string(blueprint.functionals.size()));
-    DataList terms;
-    for (const Term<double>& term : blueprint.terms) {
-        Data i;
-        i.set("row", std::to_string(term.row));
-        i.set("column", std::to_string(term.column));
-        i.set("factor", literal(term.factor, plan));
-        terms.push_back(i);
-    }
-    d.set("terms", listed(terms));
-    d.set("term_count", std::to_string(blueprint.terms.size()));
+    d.set("noise", listed(channels));
+    d.set("noise_count", std::to_string(blueprint.noise.size()));
+    d.set("noisy_inputs", std::to_string(blueprint.noisy.size()));
+    d.set("whiten_at", joined(blueprint.whiten_at, plan));
     d.set("keep", literal(plan.keep, plan));
     d.set("condition_limit", literal(plan.condition_limit, plan));
+    d.set("deviation_limit", literal(plan.deviation_limit, plan));
+    d.set("ratio_numbers", plan.ratio ? "{true, {" + joined(plan.ratio->transition, plan) + "}, {" + joined(plan.ratio->before, plan) + "}, {" + joined(plan.ratio->now, plan) + "}}"
+                                      : std::string("{false, {}, {}, {}}"));
     return with_weights(render("cpp/tables.hpp.mustache", d), plan);
 }
 

@@ -61,6 +61,8 @@ struct Equation {
     std::vector<Position> places;      ///< position of each byte of `ode` in the file, and of its end
     formula::Equation sides;
     int kappa = 0;
+    std::string perturbation;          ///< the name under which its coefficients on the window are given; empty: they are not
+    Position perturbation_at;
     RowChoice rows;
     std::optional<Rational> scale;     ///< typical size, in the equation's unit
     Position place(int offset) const;
@@ -81,11 +83,16 @@ struct Estimator {
     bool given = false;
     Position at;
     Functional functional = Functional::annihilator;
-    int form = 1;
+    int form = 1;                           ///< of the annihilator
     Solver solve = Solver::square;
     std::optional<Rational> solve_window;   ///< s
     Rational forgetting = 1;                ///< factor on the weight of old rows at each sample, least squares
     std::optional<Rational> condition_limit;
+    std::optional<Rational> deviation_limit;
+    std::optional<bool> uncertainty;        ///< nothing said: where noise is declared and the solve allows it
+    bool whiten = false;
+    std::optional<Rational> omega_n;        ///< rad/s, of the ratio filter; empty: there is none
+    Rational zeta = Rational(707) / 1000;   ///< as in 000
     std::string engine = "fir";
     plan::Quadrature quadrature = plan::Quadrature::exact;
 };
@@ -99,7 +106,11 @@ struct Model {
     std::optional<Rational> window;   ///< s
     Position sampling_at;
     Position window_at;
+    int decimate = 1;                 ///< periods that one sample of a window is the mean over
     bool growing = false;
+
+    /// Between samples of a window, s; needs a period.
+    Rational window_period() const { return *period * decimate; }
     std::vector<Signal> signals;
     std::vector<Constant> constants;
     std::vector<Parameter> parameters;
@@ -122,6 +133,7 @@ constexpr int largest_order = 12;
 constexpr int largest_kappa = 8;
 constexpr int largest_row = 40;
 constexpr int most_intervals = 1000000;
+constexpr int largest_decimation = 10000;
 
 /// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.
 /// With strict, a missing unit is an error instead of a warning.

@@ -87,24 +87,51 @@ RowChoice read_rows(const toml::table& t, TomlAccess& file) {
 }
 
 /// What [[equation]] and [transfer] have in common: which rows, of what weight.
-void read_estimation(const toml::table& t, Equation& e, TomlAccess& file) {
+/// The names under which the coefficients of a perturbation are given; each is a name like any other.
+void read_perturbation(const toml::table& t, Equation& e, Reading& reading) {
+    const auto name = reading.file.string(t, "perturbation");
+    if (!name) return;
+    const toml::node& node = *t.get("perturbation");
+    e.perturbation_at = position(node);
+    if (e.kappa == 0) {
+        reading.file.error(node, "a perturbation is asked for, and kappa = 0 annihilates none", "write kappa = 1 for a constant one, 2 for a ramp");
+        return;
+    }
+    for (int i = 1; i <= e.kappa; ++i) {
+        const std::string one = e.kappa == 1 ? *name : *name + std::to_string(i);
+        if (const auto fault = fault_of_name(one)) {
+            reading.file.error(node, fault->what, fault->right);
+            return;
+        }
+        const auto [place, fresh] = reading.names.emplace(folded(one), one);
+        if (!fresh) {
+            reading.file.error(node, quoted(one) + " is the name of a coefficient of this perturbation, and of something else: " + quoted(place->second), "choose another name");
+            return;
+        }
+    }
+    e.perturbation = *name;
+}
+
+void read_estimation(const toml::table& t, Equation& e, Reading& reading) {
+    TomlAccess& file = reading.file;
     e.file = file.path();
     e.kappa = file.whole(t, "kappa", 0, largest_kappa).value_or(0);
     e.rows = read_rows(t, file);
     e.scale = file.positive(t, "scale");
+    read_perturbation(t, e, reading);
 }
 
 void read_equation(const toml::table& t, Reading& reading) {
     TomlAccess& file = reading.file;
     Model& model = reading.model;
-    file.known_keys(t, {"name", "ode", "kappa", "rows", "scale"});
+    file.known_keys(t, {"name", "ode", "kappa", "rows", "scale", "perturbation"});
     Equation e;
     e.name = file.string(t, "name").value_or("equation " + std::to_string(model.equations.size() + 1));
     if (const auto fault = fault_of_prose(e.name)) file.error(*t.get("name"), fault->what, fault->right);
     for (const Equation& other : model.equations) {
         if (other.name == e.name && t.contains("name")) file.error(*t.get("name"), "two equations are named " + quoted(e.name), "rename one");
     }
-    read_estimation(t, e, file);
+    read_estimation(t, e, reading);
     const auto ode = file.string(t, "ode");
     if (!ode) {
         if (!t.contains("ode")) file.error(t, "an equation without ode", "add ode = \"L*der(i) = v - R*i\"");
@@ -206,7 +233,7 @@ bool knows_a_number(const Transfer& transfer) {
 
 void read_transfer(const toml::table& t, Reading& reading) {
     TomlAccess& file = reading.file;
-    file.known_keys(t, {"output", "input", "n", "m", "kappa", "rows", "unknowns", "known", "scale"});
+    file.known_keys(t, {"output", "input", "n", "m", "kappa", "rows", "unknowns", "known", "scale", "perturbation"});
     Transfer transfer;
     transfer.at = position(t);
     transfer.output = file.string(t, "output").value_or("y");
@@ -221,7 +248,7 @@ void read_transfer(const toml::table& t, Reading& reading) {
     Equation e;
     e.name = "transfer";
     e.at = transfer.at;
-    read_estimation(t, e, file);
+    read_estimation(t, e, reading);
     if (file.diagnostics().has_errors() || !write_out(transfer, reading.model, e, file.diagnostics())) return;
     if (!knows_a_number(transfer)) check_dimension(reading.model, e, file.diagnostics());
     reading.model.equations.push_back(std::move(e));

@@ -2,6 +2,8 @@
 // [sampling] and [estimator]: times, solver, and what this version does not support.
 #include "generator/model_sections.hpp"
 
+#include <algorithm>
+
 namespace algest::model {
 
 using exact::Rational;
@@ -11,19 +13,44 @@ namespace {
 /// Drops a window that no estimator can have, after a complaint.
 void check_window(Reading& reading) {
     Model& model = reading.model;
-    const Rational intervals = *model.window / *model.period;
+    const Rational intervals = *model.window / model.window_period();
+    const std::string period = model.decimate > 1 ? "decimated period" : "period";
     if (intervals > most_intervals) {
-        reading.file.error(model.window_at, "the window has more than " + std::to_string(most_intervals) + " periods", "choose a shorter one, or sample less often");
+        reading.file.error(model.window_at, "the window has more than " + std::to_string(most_intervals) + " " + period + "s", "choose a shorter one, or sample less often");
     } else if (intervals < 2) {
-        reading.file.error(model.window_at, "the window is shorter than two periods", "choose a longer one");
+        reading.file.error(model.window_at, "the window is shorter than two " + period + "s", "choose a longer one");
     } else if (!exact::is_integer(intervals)) {
         const exact::Integer below = cln::floor1(intervals);
-        reading.file.error(model.window_at, "the window is not a whole number of periods: between " + exact::text(below) + " and " + exact::text(below + 1),
-                           "e.g. window = \"" + exact::text(below * *model.period) + "\", which is " + exact::text(below));
+        reading.file.error(model.window_at, "the window is not a whole number of " + period + "s: between " + exact::text(below) + " and " + exact::text(below + 1),
+                           "e.g. window = \"" + exact::text(below * model.window_period()) + "\", which is " + exact::text(below));
     } else {
         return;
     }
     model.window.reset();
+}
+
+/// Complains where something is asked of the sensors' noise that the solve cannot give.
+void check_noise(const toml::table& t, Reading& reading) {
+    const Estimator& e = reading.model.estimator;
+    const std::vector<Signal>& signals = reading.model.signals;
+    const bool noisy = std::any_of(signals.begin(), signals.end(), [](const Signal& s) { return s.noise && !cln::zerop(*s.noise); });
+    if (e.whiten && e.solve != Solver::square) {
+        reading.file.error(*t.get("whiten"), "whiten is for the rows of one instant: solve = \"square\" with more rows than unknowns", "use solve = \"square\", or leave it out");
+    }
+    const auto asked = [&](const char* key, bool by) {
+        if (!by) return;
+        if (e.solve == Solver::least_squares) {
+            reading.file.error(*t.get(key), std::string(key) + " is not to be had with least_squares, which keeps no window of what it absorbed", "use square or robust, or leave it out");
+        } else if (!noisy) {
+            reading.file.error(*t.get(key), std::string(key) + " needs the noise of the sensors", "declare noise = ... for the measured signals, in their unit");
+        }
+    };
+    asked("deviation_limit", e.deviation_limit.has_value());
+    asked("uncertainty", e.uncertainty.value_or(false));
+    asked("whiten", e.whiten && e.solve == Solver::square);
+    if (!e.uncertainty.value_or(true) && (e.whiten || e.deviation_limit)) {
+        reading.file.error(*t.get("uncertainty"), "uncertainty = false leaves out what whiten and deviation_limit need", "leave it out");
+    }
 }
 
 /// Complains about what a model may say and this version cannot do.
@@ -35,8 +62,22 @@ void check_support(const toml::table& t, Reading& reading) {
     if (e.solve == Solver::elimination) {
         reading.file.error(*t.get("solve"), "elimination is not supported by this version", "use square, robust or least_squares");
     }
-    if (e.form == 2 && t.contains("form")) {
-        reading.file.error(*t.get("form"), "form 2 is not supported by this version", "use form = 1");
+}
+
+void read_ratio_filter(const toml::table& t, Reading& reading) {
+    TomlAccess& file = reading.file;
+    const toml::table* filter = file.subtable(t, "ratio_filter");
+    if (filter == nullptr) return;
+    Estimator& e = reading.model.estimator;
+    file.known_keys(*filter, {"omega_n", "zeta"});
+    e.omega_n = file.positive(*filter, "omega_n");
+    if (!filter->contains("omega_n")) file.error(*filter, "a ratio filter without omega_n", "write ratio_filter = { omega_n = 15, zeta = 0.707 }, omega_n in rad/s");
+    if (const auto zeta = file.positive(*filter, "zeta")) {
+        if (*zeta > 10) file.error(*filter->get("zeta"), "'zeta' is above 10", "0.707 settles soonest");
+        else e.zeta = *zeta;
+    }
+    if (e.solve != Solver::robust) {
+        file.error(*t.get("ratio_filter"), "a ratio filter needs solve = \"robust\": only the determinant of S(t) keeps its sign", "use solve = \"robust\", or leave the filter out");
     }
 }
 
@@ -45,12 +86,16 @@ void check_times(const toml::table& t, Reading& reading) {
     const Model& model = reading.model;
     const Estimator& e = model.estimator;
     if (!model.period) return;
-    if (e.solve_window && !exact::is_integer(*e.solve_window / *model.period)) {
-        reading.file.error(*t.get("solve_window"), "solve_window is not a whole number of periods", "choose a multiple of the period");
-    } else if (e.solve_window && *e.solve_window / *model.period > most_intervals) {
+    if (e.omega_n && *e.omega_n * *model.period > 1) {
+        reading.file.error(*t.get("ratio_filter"), "the ratio filter is faster than the samples: omega_n is above 1/period", "choose omega_n well below " + exact::decimal(1 / *model.period) + " rad/s");
+    }
+    if (e.solve_window && !exact::is_integer(*e.solve_window / model.window_period())) {
+        reading.file.error(*t.get("solve_window"), model.decimate > 1 ? "solve_window is not a whole number of decimated periods" : "solve_window is not a whole number of periods",
+                           "choose a multiple of " + exact::decimal(model.window_period()) + " s");
+    } else if (e.solve_window && *e.solve_window / model.window_period() > most_intervals) {
         reading.file.error(*t.get("solve_window"), "solve_window has more than " + std::to_string(most_intervals) + " periods", "choose a shorter one");
     }
-    if (e.quadrature == plan::Quadrature::simpson && model.window && cln::oddp(cln::numerator(*model.window / *model.period))) {
+    if (e.quadrature == plan::Quadrature::simpson && model.window && cln::oddp(cln::numerator(*model.window / model.window_period()))) {
         reading.file.error(*t.get("quadrature"), "Simpson's rule needs an even number of periods in the window", "change the window by one period");
     }
 }
@@ -62,10 +107,11 @@ void read_sampling(const toml::table& root, Reading& reading) {
     Model& model = reading.model;
     model.sampling_at = t == nullptr ? Position{1, 1} : position(*t);
     if (t == nullptr) return;
-    reading.file.known_keys(*t, {"period", "window", "growing"});
+    reading.file.known_keys(*t, {"period", "window", "decimate", "growing"});
     model.period = reading.file.duration(*t, "period");
     model.window = reading.file.duration(*t, "window");
     if (t->contains("window")) model.window_at = position(*t->get("window"));
+    model.decimate = reading.file.whole(*t, "decimate", 1, largest_decimation).value_or(1);
     model.growing = reading.file.boolean(*t, "growing").value_or(false);
     if (model.growing) {
         reading.file.error(*t->get("growing"), "a growing window is not supported by this version", "leave it out: the window then slides from the start");
@@ -77,7 +123,8 @@ void read_estimator(const toml::table& root, Reading& reading) {
     const toml::table* t = reading.file.subtable(root, "estimator");
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "quadrature", "forgetting", "condition_limit"});
+    file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "quadrature", "forgetting", "condition_limit", "deviation_limit", "uncertainty", "whiten",
+                          "ratio_filter"});
     Estimator& e = reading.model.estimator;
     e.given = true;
     e.at = position(*t);
@@ -94,6 +141,11 @@ void read_estimator(const toml::table& root, Reading& reading) {
     e.form = file.whole(*t, "form", 1, 2).value_or(1);
     e.solve_window = file.duration(*t, "solve_window");
     e.condition_limit = file.positive(*t, "condition_limit");
+    e.deviation_limit = file.positive(*t, "deviation_limit");
+    e.uncertainty = file.boolean(*t, "uncertainty");
+    e.whiten = file.boolean(*t, "whiten").value_or(false);
+    read_ratio_filter(*t, reading);
+    check_noise(*t, reading);
     if (const auto f = file.positive(*t, "forgetting")) {
         if (*f > 1) file.error(*t->get("forgetting"), "'forgetting' is above 1", "1 keeps every row, 0.999 forgets slowly");
         else e.forgetting = *f;

@@ -25,14 +25,14 @@ constexpr std::array<std::string_view, 99> cpp_words = {
     "typename", "typeof", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq", "main"};
 
 // Members of every generated class, and macros that standard headers define.
-constexpr std::array<std::string_view, 36> taken = {
-    "algest", "std", "Status", "status", "condition", "reset", "push", "estimate", "step", "Sample", "Estimate", "Scalar", "NAN",
-    "INFINITY", "HUGE_VAL", "NULL", "EOF", "assert", "errno", "signbit", "isnan", "isinf", "isfinite", "linux", "unix",
+constexpr std::array<std::string_view, 39> taken = {
+    "algest", "std", "Status", "status", "condition", "reset", "push", "estimate", "step", "Sample", "Estimate", "Scalar", "uncertainty",
+    "Uncertainty", "Deviations", "NAN", "INFINITY", "HUGE_VAL", "NULL", "EOF", "assert", "errno", "signbit", "isnan", "isinf", "isfinite", "linux", "unix",
     "M_E", "M_Ef", "M_El", "M_PI", "M_PIf", "M_PIl", "M_LN2", "M_LN10", "M_SQRT2", "RAND_MAX", "MAXFLOAT"};
 
 // Models whose class would hide one that generated code uses.
-constexpr std::array<std::string_view, 12> taken_by_runtime = {
-    "blueprint", "estimate", "functional", "latest", "memory", "parabola_filter", "progress", "sample", "scalar", "solve",
+constexpr std::array<std::string_view, 14> taken_by_runtime = {
+    "blueprint", "boxcar_progress", "estimate", "functional", "latest", "memory", "noise_channel", "parabola_filter", "progress", "sample", "scalar", "solve",
     "status", "term"};
 
 template <std::size_t N>

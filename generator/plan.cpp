@@ -10,11 +10,16 @@
 #include <set>
 
 #include "generator/annihilator.hpp"
+#include "generator/dimension.hpp"
 #include "generator/generate.hpp"
+#include "generator/initial_value.hpp"
 #include "generator/kernel.hpp"
+#include "generator/low_pass.hpp"
 #include "generator/lumping.hpp"
 #include "generator/model.hpp"
 #include "generator/names.hpp"
+#include "generator/noise_channels.hpp"
+#include "generator/perturbation.hpp"
 #include "generator/row_choice.hpp"
 #include "generator/row_weight.hpp"
 #include "generator/tape_builder.hpp"
@@ -48,9 +53,11 @@ public:
         head();
         equations();
         inputs();
+        solver();
         tables_and_rows(*weights);
         unknowns_and_parameters();
-        solver();
+        plan_.kept = kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
+        if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
         if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
         return std::move(plan_);
     }
@@ -77,7 +84,7 @@ private:
         return !diagnostics_.has_errors();
     }
 
-    Rational intervals() const { return *model_.window / *model_.period; }
+    Rational intervals() const { return *model_.window / model_.window_period(); }
 
     void head() {
         plan_.name = model_.name;
@@ -89,6 +96,7 @@ private:
         plan_.period = exact::nearest(*model_.period, plan::Scalar::float64);
         plan_.rate = exact::nearest(1 / *model_.period, options_.scalar);
         plan_.intervals = cln::cl_I_to_int(cln::numerator(intervals()));
+        plan_.decimate = model_.decimate;
         plan_.quadrature = model_.estimator.quadrature;
         if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\"");
         const std::string engine = options_.engine.empty() ? model_.estimator.engine : options_.engine;
@@ -126,10 +134,15 @@ private:
                 }
                 out.operators.push_back({text(coefficient, names), signal_text(e, product), forms_[e].order(product)});
             }
-            for (int i = 0; i <= out.n; ++i) {
-                std::vector<plan::LeibnizTerm> terms;
-                for (const auto& t : annihilator::leibniz_expansion(i, {out.n, out.kappa})) terms.push_back({exact::text(t.coefficient), t.power, t.derivative});
-                out.leibniz.push_back(terms);
+            out.form = model_.estimator.form;
+            for (const ChosenRow& row : rows_) {
+                if (row.equation != static_cast<int>(e) || (out.form == 1 && !out.annihilated.empty())) continue;
+                out.annihilated.push_back({out.form == 1 ? 0 : row.p, {}});
+                for (int i = 0; i <= out.n; ++i) {
+                    std::vector<plan::LeibnizTerm> terms;
+                    for (const auto& t : annihilator::leibniz_expansion(i, orders(e), row.p)) terms.push_back({exact::text(t.coefficient), t.power, t.derivative});
+                    out.annihilated.back().leibniz.push_back(terms);
+                }
             }
             plan_.equations.push_back(out);
         }
@@ -174,18 +187,20 @@ private:
         for (const formula::Formula& a : f->arguments) collect_differentiated(a, out);
     }
 
-    plan::Hold hold_of(std::size_t e, const equation::Product& product) const {
+    bool held(std::size_t e, const equation::Product& product) const {
         bool held = true;
         for (const equation::Factor& factor : product) {
             const equation::Atom& atom = forms_[e].atoms[static_cast<std::size_t>(factor.atom)];
             for (const int s : atom.arguments) held = held && model_.signals[static_cast<std::size_t>(s)].hold == plan::Hold::zoh;
             held = held && !atom.differentiates && (atom.kind != equation::Atom::Kind::derivative || forms_[e].order(product) > 0);
         }
-        return held ? plan::Hold::zoh : plan::Hold::linear;
+        return held;
     }
 
     int window_signal(std::size_t e, const equation::Product& product, TapeBuilder& tape) {
-        const plan::WindowSignal wanted{signal_text(e, product), hold_of(e, product), forms_[e].delayed};
+        const bool held_signal = held(e, product);
+        const plan::Hold hold = held_signal && plan_.decimate == 1 ? plan::Hold::zoh : plan::Hold::linear;   // means move straight from one to the next
+        const plan::WindowSignal wanted{signal_text(e, product), hold, held_signal, forms_[e].delayed};
         for (std::size_t k = 0; k < plan_.window_signals.size(); ++k) {
             const plan::WindowSignal& s = plan_.window_signals[k];
             if (s.text == wanted.text && s.delayed == wanted.delayed) return static_cast<int>(k);
@@ -197,35 +212,49 @@ private:
             equation::Atom& atom = form.atoms[static_cast<std::size_t>(product[0].atom)];
             atom.formula = atom.formula->arguments[0];
         }
-        tape.result(tape.product(form, undifferentiated, forms_[e].delayed));
+        window_operations_.push_back(tape.product(form, undifferentiated, forms_[e].delayed));
+        tape.result(window_operations_.back());
         return static_cast<int>(plan_.window_signals.size()) - 1;
     }
 
+    annihilator::Orders orders(std::size_t e) const { return {forms_[e].n, model_.equations[e].kappa, model_.estimator.form}; }
+
+    /// Which functional of an equation: of row p, or (p = 0) of the coefficient c_i of its perturbation.
+    struct Kind {
+        int p;
+        int perturbation;
+    };
+
     /// Derived once: every row and term of these orders has it.
-    const kernel::Coefficients& kernel_of(int derivative, int p, annihilator::Orders orders) {
-        const auto [at, fresh] = kernels_.try_emplace({derivative, p, orders.n, orders.kappa});
-        if (fresh) at->second = annihilator::kernel(derivative, p, orders);
+    const kernel::Coefficients& kernel_of(int derivative, Kind kind, annihilator::Orders orders) {
+        const auto [at, fresh] = kernels_.try_emplace({derivative, kind.p, kind.perturbation, orders.n, orders.kappa});
+        if (fresh) {
+            at->second = kind.p > 0 ? annihilator::kernel(derivative, kind.p, orders) : perturbation::kernel(kind.perturbation, derivative, orders.n, orders.kappa);
+        }
         return at->second;
     }
 
-    int table(std::size_t e, int derivative, int p, plan::Hold hold) {
+    int table(std::size_t e, int derivative, Kind kind, plan::Hold hold) {
         const int n = forms_[e].n;
         const int kappa = model_.equations[e].kappa;
         for (std::size_t k = 0; k < plan_.tables.size(); ++k) {
             const plan::Table& t = plan_.tables[k];
-            if (t.n == n && t.kappa == kappa && t.derivative == derivative && t.p == p && t.hold == hold) return static_cast<int>(k);
+            if (t.n == n && t.kappa == kappa && t.derivative == derivative && t.p == kind.p && t.perturbation == kind.perturbation && t.hold == hold) return static_cast<int>(k);
         }
         plan::Table out;
         out.n = n;
         out.kappa = kappa;
+        out.form = model_.estimator.form;
         out.derivative = derivative;
-        out.p = p;
+        out.p = kind.p;
+        out.perturbation = kind.perturbation;
         out.hold = hold;
-        const std::string kind = hold == plan::Hold::zoh ? "zoh"
+        const std::string rule = hold == plan::Hold::zoh ? "zoh"
                                  : plan_.quadrature == plan::Quadrature::exact ? "linear"
                                  : plan_.quadrature == plan::Quadrature::trapezoid ? "trapezoid" : "simpson";
-        out.name = "n" + std::to_string(n) + "_kappa" + std::to_string(kappa) + "_F_" + std::to_string(derivative) + "_" + std::to_string(p) + "_" + kind;
-        const kernel::Coefficients& k = kernel_of(derivative, p, {n, kappa});
+        out.name = "n" + std::to_string(n) + "_kappa" + std::to_string(kappa) + (kind.p > 0 && out.form == 2 ? "_form2" : "") + (kind.p > 0 ? "_F_" : "_C_") + std::to_string(derivative) + "_" +
+                   std::to_string(kind.p > 0 ? kind.p : kind.perturbation) + "_" + rule;
+        const kernel::Coefficients& k = kernel_of(derivative, kind, orders(e));
         for (const Rational& c : k) out.kernel.push_back(exact::text(c));
         if (options_.weights) out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
         plan_.tables.push_back(std::move(out));
@@ -237,22 +266,47 @@ private:
         for (std::size_t r = 0; r < rows_.size(); ++r) {
             const std::size_t e = static_cast<std::size_t>(rows_[r].equation);
             plan::Row row{equation_index_[e], rows_[r].p, {}};
-            std::vector<plan::RowTerm> known;
-            for (const lumping::LumpedTerm& term : lumping_.equations[e].terms) {
-                for (const auto& [unknown, factor] : term.unknown) row.terms.push_back(row_term(e, row.p, term.term, unknown, factor, weights[r], tape));
-                if (!cln::zerop(term.known)) known.push_back(row_term(e, row.p, term.term, -1, -term.known, weights[r], tape));
-            }
-            std::stable_sort(row.terms.begin(), row.terms.end(), [](const plan::RowTerm& a, const plan::RowTerm& b) { return a.lumped < b.lumped; });
-            row.terms.insert(row.terms.end(), known.begin(), known.end());
+            fill(row, e, {row.p, 0}, weights[r], tape);
             plan_.rows.push_back(row);
         }
+        for (std::size_t e = 0; e < forms_.size(); ++e) {
+            const model::Equation& equation = model_.equations[e];
+            if (equation.perturbation.empty() || !lumping_.equations[e].used) continue;
+            for (int i = 1; i <= equation.kappa; ++i) {
+                plan::Row row{equation_index_[e], 0, {}};
+                fill(row, e, {0, i}, exact::power(*model_.window, 1 - i), tape);
+                plan_.perturbation.push_back(row);
+            }
+        }
+        noise(tape);
         plan_.signals = tape.finish();
     }
 
-    plan::RowTerm row_term(std::size_t e, int p, int term, int unknown, const Rational& coefficient, const Rational& weight, TapeBuilder& tape) {
+    void fill(plan::Row& row, std::size_t e, Kind kind, const Rational& weight, TapeBuilder& tape) {
+        std::vector<plan::RowTerm> known;
+        for (const lumping::LumpedTerm& term : lumping_.equations[e].terms) {
+            for (const auto& [unknown, factor] : term.unknown) row.terms.push_back(row_term(e, kind, term.term, unknown, factor, weight, tape));
+            if (!cln::zerop(term.known)) known.push_back(row_term(e, kind, term.term, -1, -term.known, weight, tape));
+        }
+        std::stable_sort(row.terms.begin(), row.terms.end(), [](const plan::RowTerm& a, const plan::RowTerm& b) { return a.lumped < b.lumped; });
+        row.terms.insert(row.terms.end(), known.begin(), known.end());
+    }
+
+    void noise(TapeBuilder& tape) {
+        const model::Estimator& e = model_.estimator;
+        if (e.solve == model::Solver::least_squares || !e.uncertainty.value_or(true)) return;
+        noise_ = noise_channels(model_, input_of_signal_, window_operations_, plan_.scalar, tape);
+        plan_.noise = noise_.channels;
+        for (const NoiseChannels::Partial& p : noise_.partials) {
+            plan_.partials.push_back("d(" + plan_.window_signals[static_cast<std::size_t>(p.signal)].text + ")/d(" + plan_.inputs[static_cast<std::size_t>(p.input)].name + ")");
+            tape.result(p.operation);
+        }
+    }
+
+    plan::RowTerm row_term(std::size_t e, Kind kind, int term, int unknown, const Rational& coefficient, const Rational& weight, TapeBuilder& tape) {
         const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term)].product;
         const int derivative = forms_[e].order(product);
-        const kernel::Coefficients& k = kernel_of(derivative, p, {forms_[e].n, model_.equations[e].kappa});
+        const kernel::Coefficients& k = kernel_of(derivative, kind, orders(e));
         plan::RowTerm out;
         out.lumped = unknown;
         out.derivative = derivative;
@@ -265,7 +319,7 @@ private:
             factor = factor * kernel::integral(k, plan_.intervals, plan::Hold::linear, plan_.quadrature);
         } else {
             out.signal = window_signal(e, product, tape);
-            out.table = table(e, derivative, p, plan_.window_signals[static_cast<std::size_t>(out.signal)].hold);
+            out.table = table(e, derivative, kind, plan_.window_signals[static_cast<std::size_t>(out.signal)].hold);
         }
         out.factor = exact::nearest(factor, plan_.scalar);
         return out;
@@ -277,16 +331,63 @@ private:
         std::vector<std::string> unknowns;
         for (const lumping::Unknown& u : lumping_.unknowns) {
             unknowns.push_back(u.name);
-            plan_.lumped.push_back({u.name, text(u.meaning, parameters)});
+            plan_.lumped.push_back({u.name, text(u.meaning, parameters), initial_value(u.meaning)});
         }
         TapeBuilder map(model_, plan_.scalar, {});
+        std::vector<int> operations(model_.parameters.size(), -1);
         for (std::size_t k = 0; k < model_.parameters.size(); ++k) {
             const model::Parameter& p = model_.parameters[k];
             if (!lumping_.inverse[k]) continue;
-            plan_.parameters.push_back({p.name, p.unit, text(*lumping_.inverse[k], unknowns), p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0});
-            map.result(map.quotient(*lumping_.inverse[k]));
+            plan_.parameters.push_back({p.name, p.unit, text(*lumping_.inverse[k], unknowns), p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0, false});
+            operations[k] = map.quotient(*lumping_.inverse[k]);
+            map.result(operations[k]);
         }
+        perturbations(map, operations);
         plan_.parameter_map = map.finish();
+        if (plan_.uncertain()) derivatives_of_the_map();
+    }
+
+    /// The rows were divided by the leading coefficient: what they say of a perturbation is multiplied by it.
+    void perturbations(TapeBuilder& map, const std::vector<int>& operations) {
+        int residual = static_cast<int>(plan_.lumped.size());
+        for (std::size_t e = 0; e < forms_.size(); ++e) {
+            const model::Equation& equation = model_.equations[e];
+            const lumping::LumpedEquation& lumped = lumping_.equations[e];
+            if (equation.perturbation.empty() || !lumped.used) continue;
+            const units::Unit unit = model::unit_of_equation(model_, equation);
+            for (int i = 1; i <= equation.kappa; ++i, ++residual) {
+                const units::Unit of_coefficient = unit.over(units::Unit::parse("s")->power(i - 1));
+                const int leading = map.quotient(lumped.leading, operations);
+                const int coefficient = map.input(residual);
+                map.result(lumped.divided ? map.times(coefficient, leading) : coefficient);
+                const std::string name = equation.kappa == 1 ? equation.perturbation : equation.perturbation + std::to_string(i);
+                const std::string power = i == 1 ? "1" : i == 2 ? "t" : "t^" + std::to_string(i - 1) + "/" + std::to_string(i - 1) + "!";
+                const std::string what = equation.kappa == 1 ? "constant perturbation of '" + equation.name + "' on the window"
+                                                             : "coefficient of " + power + " in the perturbation of '" + equation.name + "', t from the oldest sample of the window on";
+                plan_.parameters.push_back({name, of_coefficient.known() ? of_coefficient.text() : "", what, 0.0, true});
+            }
+        }
+    }
+
+    void derivatives_of_the_map() {
+        TapeBuilder map(model_, plan_.scalar, {});
+        const int n = static_cast<int>(plan_.lumped.size());
+        std::vector<int> operations;
+        for (const auto& inverse : lumping_.inverse) if (inverse) operations.push_back(map.quotient(*inverse));
+        for (const int o : operations) for (int u = 0; u < n; ++u) map.result_or_zero(map.partial(o, plan::Op::input, u));
+        for (const int o : operations) {
+            for (int u = 0; u < n; ++u) {
+                const int slope = map.partial(o, plan::Op::input, u);
+                for (int v = u; v < n; ++v) map.result_or_zero(slope < 0 ? -1 : map.partial(slope, plan::Op::input, v));
+            }
+        }
+        plan_.map_derivatives = map.finish();
+    }
+
+    /// At the initial values of the parameters, rounded once; NaN where it has none.
+    double initial_value(const Quotient& q) const {
+        const auto value = model::at_initial(q, model_);
+        return value ? exact::nearest(*value, plan_.scalar) : std::numeric_limits<double>::quiet_NaN();
     }
 
     void solver() {
@@ -298,9 +399,20 @@ private:
         if (plan_.solve == algest::Solve::robust) {
             const Rational window = e.solve_window.value_or(*model_.window);
             if (!e.solve_window) plan_.notes.push_back("no solve_window: S(t) runs over one window");
-            plan_.solve_instants = cln::cl_I_to_int(cln::floor1(window / *model_.period)) + 1;
+            plan_.solve_instants = cln::cl_I_to_int(cln::floor1(window / model_.window_period())) + 1;
         }
         plan_.keep = e.forgetting == 1 ? 1.0 : exact::nearest(*exact::function_value("sqrt", e.forgetting), plan_.scalar);
+        plan_.deviation_limit = e.deviation_limit ? exact::nearest(*e.deviation_limit, plan_.scalar) : 0.0;
+        plan_.whiten = e.whiten;
+        if (e.omega_n) {
+            const low_pass::Discrete filter = low_pass::discretised(*e.omega_n * *model_.period, e.zeta);
+            const auto rounded = [&](const auto& numbers) {
+                std::vector<double> out;
+                for (const Rational& x : numbers) out.push_back(exact::nearest(x, plan_.scalar));
+                return out;
+            };
+            plan_.ratio = {exact::text(*e.omega_n), exact::text(e.zeta), rounded(filter.transition), rounded(filter.before), rounded(filter.now)};
+        }
         plan_.condition_limit = e.condition_limit ? exact::nearest(*e.condition_limit, plan_.scalar) : default_condition_limit();
         if (plan_.scalar == plan::Scalar::float32) {
             for (const plan::Equation& q : plan_.equations) {
@@ -319,10 +431,12 @@ private:
 
     bool numbers_fit_the_scalar() {
         const auto finite = [](const std::vector<double>& numbers) { return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }); };
-        std::vector<double> numbers = {plan_.rate, plan_.condition_limit};
+        std::vector<double> numbers = {plan_.rate, plan_.condition_limit, plan_.deviation_limit};
+        for (const plan::NoiseChannel& c : plan_.noise) numbers.push_back(c.factor);
+        for (const plan::Row& row : plan_.perturbation) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Row& row : plan_.rows) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Parameter& p : plan_.parameters) numbers.push_back(p.initial);
-        for (const plan::Tape* tape : {&plan_.signals, &plan_.parameter_map}) for (const plan::Operation& o : tape->operations) numbers.push_back(o.value);
+        for (const plan::Tape* tape : {&plan_.signals, &plan_.parameter_map, &plan_.map_derivatives}) for (const plan::Operation& o : tape->operations) numbers.push_back(o.value);
         const bool tables_fit = std::all_of(plan_.tables.begin(), plan_.tables.end(), [&](const plan::Table& t) { return finite(t.weights); });
         if (tables_fit && finite(numbers)) return true;
         diagnostics_.error(model_.path, model_.sampling_at, std::string("a number of the estimator is beyond the range of ") + (plan_.scalar == plan::Scalar::float64 ? "double" : "float"),
@@ -334,9 +448,11 @@ private:
     bool fits_the_runtime() {
         std::size_t terms = 0;
         for (const plan::Row& row : plan_.rows) terms += row.terms.size();
-        const std::size_t most = std::max({plan_.tables.size(), plan_.window_signals.size(), plan_.rows.size(), plan_.lumped.size(), terms});
+        for (const plan::Row& row : plan_.perturbation) terms += row.terms.size();
+        const std::size_t rings = static_cast<std::size_t>(plan_.rings());
+        const std::size_t most = std::max({plan_.tables.size(), rings, plan_.rows.size(), plan_.lumped.size(), plan_.noise.size(), terms});
         const double unknowns = static_cast<double>(plan_.lumped.size());
-        const double scalars = std::max(2.0 * static_cast<double>(plan_.window_signals.size()) * (plan_.samples() + algest::spare_samples),
+        const double scalars = std::max(2.0 * static_cast<double>(rings) * (plan_.samples() + plan_.kept),
                                         std::max((plan_.solve_instants + 5.0) * (unknowns + 1) * (unknowns + 2) / 2, static_cast<double>(plan_.tables.size()) * plan_.samples()));
         if (most < 65535 && scalars < 2e8) return true;
         diagnostics_.error(model_.path, model_.sampling_at, "the estimator is too large: " + std::to_string(terms) + " terms, arrays of up to " + std::to_string(static_cast<long>(scalars)) + " numbers",
@@ -352,7 +468,9 @@ private:
     std::vector<ChosenRow> rows_;
     std::vector<int> equation_index_;
     std::vector<int> input_of_signal_;
-    std::map<std::array<int, 4>, kernel::Coefficients> kernels_;   // by derivative, p, n, kappa
+    std::map<std::array<int, 5>, kernel::Coefficients> kernels_;   // by derivative, p, perturbation, n, kappa
+    std::vector<int> window_operations_;                           // of the signals' tape, by window signal
+    NoiseChannels noise_;
     plan::Plan plan_;
 };
 
@@ -361,14 +479,19 @@ private:
 bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics) {
     const auto model = model::read(path, strict, diagnostics);
     if (!model) return false;
+    if (!model->parameters.empty() && model->window && model->period) {   // an estimator follows, or it is said why not
+        PlanOptions options;
+        options.weights = false;
+        (void)Planner(*model, options, diagnostics).run();
+        return !diagnostics.failed();
+    }
     const auto forms = Planner::operator_forms(*model, diagnostics);
     if (!forms) return false;
     const auto lumping = lumping::lump(*model, *forms, diagnostics);
     if (!lumping) return false;
     if (!model->parameters.empty()) {
-        const auto rows = choose_rows(*model, *lumping, diagnostics);
-        if (rows && model->window) (void)row_weights(*model, *forms, *lumping, *rows, diagnostics);
-        if (!model->window || !model->period) diagnostics.note(path, "sound; without [sampling] period and window it serves simulation, an estimator needs both");
+        (void)choose_rows(*model, *lumping, diagnostics);
+        diagnostics.note(path, "sound; without [sampling] period and window it serves simulation, an estimator needs both");
     }
     return !diagnostics.failed();
 }

@@ -29,7 +29,8 @@ struct Input {
 /// What one ring holds: an input, or something computed from inputs sample by sample.
 struct WindowSignal {
     std::string text;      ///< the formula in canonical order, as `derive` names it
-    Hold hold;
+    Hold hold;             ///< of what its kernels see: linear for every signal of a decimated plan
+    bool held;             ///< constant between samples as it is fed
     bool delayed;          ///< one sample late, like all signals of an equation with a derivative inside a nonlinearity
 };
 
@@ -38,8 +39,10 @@ struct Table {
     std::string name;                  ///< of the functional, e.g. "F_1_2_linear": derivative, row p, hold
     int n;
     int kappa;
+    int form;                          ///< of the annihilator
     int derivative;
     int p;
+    int perturbation;                  ///< 0, or i: its functional gives the coefficient c_i of the equation's perturbation, and p is 0
     Hold hold;
     std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0
     std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty if they were not asked for
@@ -70,6 +73,12 @@ struct LeibnizTerm {
     int derivative_in_s;
 };
 
+/// Pi applied to s^i Y(s), i = 0 .. n.
+struct Annihilated {
+    int p;                                           ///< the row that it belongs to; 0: all of them (form 1)
+    std::vector<std::vector<LeibnizTerm>> leibniz;   ///< by derivative order i
+};
+
 /// One product parameter * der(signal, order) of an equation brought to the form sum = 0.
 struct OperatorTerm {
     std::string parameter;   ///< text of the coefficient in lumped parameters and numbers, e.g. "Gamma2" or "-1"
@@ -86,13 +95,33 @@ struct Equation {
     std::string leading;     ///< that coefficient
     bool delayed;
     std::vector<OperatorTerm> operators;
-    std::vector<std::vector<LeibnizTerm>> leibniz;   ///< by derivative order i = 0 .. n
+    int form;                             ///< of the annihilator
+    std::vector<Annihilated> annihilated;
 };
 
 /// An unknown of the rows.
 struct Lumped {
     std::string name;        ///< Gamma1, Gamma2, ...
     std::string meaning;     ///< in the physical parameters, e.g. "R/L"
+    double initial;          ///< at the parameters' initial values; NaN where one of them is not declared
+};
+
+/// A way of a sensor's noise into a window signal: its standard deviation times the partial derivative.
+struct NoiseChannel {
+    int input;               ///< index into inputs
+    int signal;              ///< index into window_signals
+    int partial;             ///< index into partials; -1: constant, and in the factor
+    int lag;                 ///< the input's sample k enters the signal's sample k + lag
+    double factor;           ///< rounded once to the scalar
+};
+
+/// Numerators and denominator through one low-pass: x = transition x + before u_old + now u_new (runtime's ratio_filter.hpp).
+struct RatioFilter {
+    std::string omega_n;               ///< rad/s, exact
+    std::string zeta;                  ///< exact
+    std::vector<double> transition;    ///< 2 x 2, row by row, rounded once to the scalar
+    std::vector<double> before;
+    std::vector<double> now;
 };
 
 /// A parameter that the user asked for.
@@ -101,6 +130,7 @@ struct Parameter {
     std::string unit;        ///< empty: not declared
     std::string from;        ///< in the lumped parameters, e.g. "Gamma2/Gamma1"
     double initial;          ///< held until the first ok estimate
+    bool perturbation;       ///< no parameter: a coefficient of a perturbation on the window
 };
 
 struct Plan {
@@ -109,30 +139,46 @@ struct Plan {
     std::string summary;
     std::string source;
     Scalar scalar;
-    std::string period_text;   ///< exact rational, s
+    std::string period_text;   ///< exact rational, s; of the samples that are fed
     double period;             ///< s
     double rate;               ///< 1/period, rounded once to the scalar, 1/s
     int intervals;             ///< M; a window has M + 1 samples
+    int decimate = 1;          ///< periods that one sample of a window is the mean over; 1: it is a sample that was fed
     Quadrature quadrature;
 
     std::vector<Input> inputs;
     std::vector<WindowSignal> window_signals;
-    Tape signals;              ///< inputs -> window signals; needs the sample before if any signal is delayed
+    std::vector<std::string> partials;   ///< what the rings beside the window signals hold: derivatives of window signals by noisy inputs
+    Tape signals;              ///< inputs -> window signals, then partials; needs the sample before if any signal is delayed
     std::vector<Table> tables;
     std::vector<Equation> equations;
     std::vector<Row> rows;
+    std::vector<Row> perturbation;       ///< one a coefficient c_i; their residuals at the estimate
     std::vector<Lumped> lumped;
     std::vector<Parameter> parameters;
-    Tape parameter_map;        ///< lumped -> parameters
+    Tape parameter_map;        ///< lumped, then residuals of the perturbation rows -> parameters, then perturbations
+    Tape map_derivatives;      ///< lumped -> gradients of the parameters (parameters x unknowns), then second derivatives (packed upper triangles)
     algest::Solve solve;
     int solve_instants;        ///< instants in S(t); 0 unless robust
     double keep;               ///< least squares: factor on the old rows at each instant
     double condition_limit;
+    int kept;                  ///< samples that the rings keep beyond one window
+    std::vector<NoiseChannel> noise;     ///< sorted by input; empty: no uncertainty()
+    double deviation_limit;    ///< 0: not asked
+    bool whiten;
+    std::optional<RatioFilter> ratio;
     std::vector<std::string> notes;   ///< what was chosen for the user, in words
 
     int samples() const { return intervals + 1; }
-    /// From a start or restart: the window, the instants of S(t), the sample that primes a delayed model.
-    int samples_to_first_estimate() const { return samples() + (solve_instants > 0 ? solve_instants - 1 : 0) + (delayed() ? 1 : 0); }
+    int rings() const { return static_cast<int>(window_signals.size() + partials.size()); }
+    /// That are estimated; perturbations stand behind them.
+    int estimated() const { return static_cast<int>(parameters.size() - perturbation.size()); }
+    bool uncertain() const { return !noise.empty(); }
+    /// From a start or restart: the window, the instants of S(t), the samples that a first mean and a delayed model need before.
+    int samples_to_first_estimate() const {
+        const int instants = samples() + (solve_instants > 0 ? solve_instants - 1 : 0);
+        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0);
+    }
     bool delayed() const {
         for (const WindowSignal& s : window_signals) if (s.delayed) return true;
         return false;

@@ -51,6 +51,7 @@ std::string plan_hash(const plan::Plan& plan) {
     hash.add(static_cast<int>(plan.scalar));
     hash.add(plan.period_text);
     hash.add(plan.intervals);
+    hash.add(plan.decimate);
     hash.add(static_cast<int>(plan.quadrature));
     for (const plan::Input& i : plan.inputs) {
         hash.add(i.name);
@@ -62,22 +63,27 @@ std::string plan_hash(const plan::Plan& plan) {
     for (const plan::WindowSignal& s : plan.window_signals) {
         hash.add(s.text);
         hash.add(static_cast<int>(s.hold));
+        hash.add(s.held);
         hash.add(s.delayed);
     }
+    for (const std::string& p : plan.partials) hash.add(p);
     hash.add(plan.signals);
     for (const plan::Table& t : plan.tables) {
         hash.add(t.name);
         for (const std::string& c : t.kernel) hash.add(c);
         for (const double w : t.weights) hash.add(w);
     }
-    for (const plan::Row& row : plan.rows) {
-        hash.add(row.equation);
-        hash.add(row.p);
-        for (const plan::RowTerm& t : row.terms) {
-            hash.add(t.lumped);
-            hash.add(t.signal);
-            hash.add(t.table);
-            hash.add(t.factor);
+    for (const std::vector<plan::Row>* rows : {&plan.rows, &plan.perturbation}) {
+        hash.add(static_cast<int>(rows->size()));
+        for (const plan::Row& row : *rows) {
+            hash.add(row.equation);
+            hash.add(row.p);
+            for (const plan::RowTerm& t : row.terms) {
+                hash.add(t.lumped);
+                hash.add(t.signal);
+                hash.add(t.table);
+                hash.add(t.factor);
+            }
         }
     }
     for (const plan::Parameter& p : plan.parameters) {
@@ -86,10 +92,25 @@ std::string plan_hash(const plan::Plan& plan) {
         hash.add(p.initial);
     }
     hash.add(plan.parameter_map);
+    hash.add(plan.map_derivatives);
     hash.add(static_cast<int>(plan.solve));
     hash.add(plan.solve_instants);
     hash.add(plan.keep);
     hash.add(plan.condition_limit);
+    hash.add(plan.kept);
+    for (const plan::NoiseChannel& c : plan.noise) {
+        hash.add(c.input);
+        hash.add(c.signal);
+        hash.add(c.partial);
+        hash.add(c.lag);
+        hash.add(c.factor);
+    }
+    hash.add(plan.deviation_limit);
+    hash.add(plan.whiten);
+    if (plan.whiten) for (const plan::Lumped& u : plan.lumped) hash.add(u.initial);
+    if (plan.ratio) {
+        for (const std::vector<double>* numbers : {&plan.ratio->transition, &plan.ratio->before, &plan.ratio->now}) for (const double x : *numbers) hash.add(x);
+    }
     return hash.text();
 }
 

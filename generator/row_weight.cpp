@@ -5,6 +5,7 @@
 
 #include "generator/annihilator.hpp"
 #include "generator/dimension.hpp"
+#include "generator/initial_value.hpp"
 #include "generator/kernel.hpp"
 
 namespace algest::generator {
@@ -13,28 +14,13 @@ namespace {
 
 using exact::Rational;
 
-/// Value of a polynomial at the parameters' initial values; nullopt where one is needed and missing.
-std::optional<Rational> at_initial(const Polynomial& p, const model::Model& model) {
-    Rational out = 0;
-    for (const auto& [exponents, coefficient] : p) {
-        Rational term = coefficient;
-        for (std::size_t k = 0; k < exponents.size(); ++k) {
-            if (exponents[k] == 0) continue;
-            if (!model.parameters[k].initial) return std::nullopt;
-            term = term * exact::power(*model.parameters[k].initial, exponents[k]);
-        }
-        out = out + term;
-    }
-    return out;
-}
-
 /// Standard deviation of the residual's largest part, in the unit of the equation as the rows use it.
 std::optional<Rational> noise_of(const model::Model& model, const equation::OperatorForm& form, const lumping::LumpedEquation& lumped) {
     if (form.leading < 0) return std::nullopt;
     const equation::Term& term = form.terms[static_cast<std::size_t>(form.leading)];
     const model::Signal& signal = model.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(term.product[0].atom)].signal)];
     if (!signal.noise || cln::zerop(*signal.noise)) return std::nullopt;
-    const auto coefficient = lumped.divided ? std::optional<Rational>(1) : at_initial(term.coefficient, model);
+    const auto coefficient = lumped.divided ? std::optional<Rational>(1) : model::at_initial(term.coefficient, model);
     if (!coefficient || cln::zerop(*coefficient)) return std::nullopt;
     return *signal.noise * cln::abs(*coefficient) * exact::power(*model.window, -form.n);
 }
@@ -51,7 +37,7 @@ units::Unit unit_of_rows(const model::Model& model, std::size_t e, const equatio
 /// The written scale, in the unit of the equation as the rows use it: divided like the equation.
 std::optional<Rational> scale_of(const model::Model& model, std::size_t e, const lumping::LumpedEquation& lumped) {
     if (!model.equations[e].scale) return std::nullopt;
-    const auto leading = at_initial(lumped.leading.numerator, model);
+    const auto leading = model::at_initial(lumped.leading.numerator, model);
     if (!leading || cln::zerop(*leading)) return std::nullopt;
     return *model.equations[e].scale / cln::abs(*leading);
 }
@@ -94,7 +80,7 @@ std::optional<RowWeights> row_weights(const model::Model& model, const std::vect
     RowWeights out;
     for (const ChosenRow& row : rows) {
         const std::size_t e = static_cast<std::size_t>(row.equation);
-        const Rational norm2 = kernel::square_norm(annihilator::kernel(forms[e].n, row.p, {forms[e].n, model.equations[e].kappa}));
+        const Rational norm2 = kernel::square_norm(annihilator::kernel(forms[e].n, row.p, {forms[e].n, model.equations[e].kappa, model.estimator.form}));
         out.push_back(1 / exact::power_of_two_near_root(norm2 * size[e] * size[e]));
     }
     return out;

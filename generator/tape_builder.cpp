@@ -119,12 +119,12 @@ int TapeBuilder::product(const equation::OperatorForm& form, const equation::Pro
     return add(Op::div, above, below);
 }
 
-int TapeBuilder::polynomial(const Polynomial& p) {
+int TapeBuilder::polynomial(const Polynomial& p, const std::vector<int>& variables) {
     int out = -1;
     for (const auto& [exponents, coefficient] : p) {
         int term = constant(cln::abs(coefficient));
         for (std::size_t k = 0; k < exponents.size(); ++k) {
-            if (exponents[k] != 0) term = add(Op::mul, term, power(add(Op::input, static_cast<int>(k)), exponents[k]));
+            if (exponents[k] != 0) term = add(Op::mul, term, power(variables.empty() ? input(static_cast<int>(k)) : variables[k], exponents[k]));
         }
         const bool negative = cln::minusp(coefficient);
         if (out < 0) out = negative ? add(Op::neg, term) : term;
@@ -133,9 +133,116 @@ int TapeBuilder::polynomial(const Polynomial& p) {
     return out < 0 ? constant(0) : out;
 }
 
-int TapeBuilder::quotient(const Quotient& q) {
-    const int above = polynomial(q.numerator);
-    return add(Op::div, above, polynomial(q.denominator));
+int TapeBuilder::quotient(const Quotient& q, const std::vector<int>& variables) {
+    const int above = polynomial(q.numerator, variables);
+    return add(Op::div, above, polynomial(q.denominator, variables));
+}
+
+// Sums and products of derivatives: -1 is zero, and what is constant becomes one constant.
+int TapeBuilder::sum_of(int a, int b) {
+    if (a < 0 || b < 0) return a < 0 ? b : a;
+    return is_constant(a) && is_constant(b) ? constant(value(a) + value(b)) : add(Op::add, a, b);
+}
+int TapeBuilder::difference_of(int a, int b) {
+    if (b < 0) return a;
+    if (a < 0) return is_constant(b) ? constant(-value(b)) : add(Op::neg, b);
+    return is_constant(a) && is_constant(b) ? constant(value(a) - value(b)) : add(Op::sub, a, b);
+}
+int TapeBuilder::product_of(int a, int b) {
+    if (a < 0 || b < 0) return -1;
+    if (is_constant(b) && value(b) == 1) return a;
+    return is_constant(a) && is_constant(b) ? constant(value(a) * value(b)) : add(Op::mul, a, b);
+}
+int TapeBuilder::quotient_of(int a, int b) {
+    if (a < 0) return -1;
+    return is_constant(a) && is_constant(b) && !cln::zerop(value(b)) ? constant(value(a) / value(b)) : add(Op::div, a, b);
+}
+
+int TapeBuilder::partial(int operation, Op kind, int k) {
+    const auto [known, fresh] = partials_.try_emplace({operation, kind, k}, -1);
+    if (fresh) known->second = derived(operation, kind, k);   // a map's places stay where they are
+    return known->second;
+}
+
+// One call a statement: operations are numbered in the order in which they are made, and that of arguments is the compiler's.
+int TapeBuilder::derived(int operation, Op kind, int k) {
+    const Entry e = entries_[static_cast<std::size_t>(operation)];
+    if (e.op == Op::constant) return -1;
+    if (reads_input(e.op)) return e.op == kind && e.a == k ? constant(1) : -1;
+    const int da = partial(e.a, kind, k);
+    const int db = e.b < 0 ? -1 : partial(e.b, kind, k);
+    if (da < 0 && db < 0) return -1;
+    switch (e.op) {
+        case Op::neg: return difference_of(-1, da);
+        case Op::add: return sum_of(da, db);
+        case Op::sub: return difference_of(da, db);
+        case Op::mul: {
+            const int first = product_of(da, e.b);
+            const int second = product_of(db, e.a);
+            return sum_of(first, second);
+        }
+        case Op::div: {
+            const int second = product_of(db, operation);
+            const int above = difference_of(da, second);
+            return quotient_of(above, e.b);
+        }
+        case Op::sqrt: {
+            const int two = constant(2);
+            const int below = product_of(two, operation);
+            return quotient_of(da, below);
+        }
+        case Op::exp: return product_of(da, operation);
+        case Op::log: return quotient_of(da, e.a);
+        case Op::sin: {
+            const int slope = add(Op::cos, e.a);
+            return product_of(da, slope);
+        }
+        case Op::cos: {
+            const int slope = add(Op::sin, e.a);
+            const int part = product_of(da, slope);
+            return difference_of(-1, part);
+        }
+        case Op::tan: {
+            const int square = product_of(operation, operation);
+            const int one = constant(1);
+            const int slope = sum_of(one, square);
+            return product_of(da, slope);
+        }
+        case Op::abs: {
+            const int slope = add(Op::sgn, e.a);
+            return product_of(da, slope);
+        }
+        case Op::sgn: return -1;
+        case Op::min:
+        case Op::max: {   // the mean of both slopes, and half their difference to the side that counts
+            const int ahead = e.op == Op::max ? difference_of(e.a, e.b) : difference_of(e.b, e.a);
+            const int side = add(Op::sgn, ahead);
+            const int half = constant(Rational(1) / 2);
+            const int both = sum_of(da, db);
+            const int mean = product_of(half, both);
+            const int apart = difference_of(da, db);
+            const int half_apart = product_of(half, apart);
+            const int turned = product_of(half_apart, side);
+            return sum_of(mean, turned);
+        }
+        case Op::pow: {
+            const int one = constant(1);
+            const int exponent = difference_of(e.b, one);
+            const int power_below = add(Op::pow, e.a, exponent);
+            const int slope = product_of(e.b, power_below);
+            const int by_base = product_of(slope, da);
+            if (db < 0) return by_base;
+            const int logarithm = add(Op::log, e.a);
+            const int growth = product_of(operation, logarithm);
+            const int by_exponent = product_of(growth, db);
+            return sum_of(by_base, by_exponent);
+        }
+        case Op::constant:
+        case Op::input:
+        case Op::previous:
+        case Op::derivative: break;
+    }
+    return -1;
 }
 
 plan::Tape TapeBuilder::finish() const {

@@ -2,6 +2,7 @@
 // Formulas, signal products and quotients of polynomials -> operations of a tape: equal ones once, formulas of constants as their values.
 #pragma once
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -33,8 +34,19 @@ public:
     /// A product of atoms. delayed: every signal one sample late, derivatives by the parabola filter.
     int product(const equation::OperatorForm& form, const equation::Product& product, bool delayed);
 
-    /// A quotient of polynomials in the tape's inputs 0, 1, ...
-    int quotient(const Quotient& q);
+    /// A quotient of polynomials in the operations of `variables`; empty: in the tape's inputs 0, 1, ...
+    int quotient(const Quotient& q, const std::vector<int>& variables = {});
+    /// left * right.
+    int times(int left, int right) { return add(plan::Op::mul, left, right); }
+    int input(int k) { return add(plan::Op::input, k); }
+
+    /// d operation / d (input k, as `kind` reads it: input, previous or derivative), by the rules of differentiation, operation by
+    /// operation; -1 where it is zero everywhere, or almost (sgn). A constant one is a single operation.
+    int partial(int operation, plan::Op kind, int k);
+    /// A result that is zero where `operation` is -1.
+    void result_or_zero(int operation) { result(operation < 0 ? constant(0) : operation); }
+    /// The value of an operation that is constant.
+    std::optional<exact::Rational> constant_value(int operation) const { return is_constant(operation) ? std::optional(value(operation)) : std::nullopt; }
 
     void result(int operation) { results_.push_back(operation); }
 
@@ -52,7 +64,12 @@ private:
     int constant(const exact::Rational& value);
     int power(int base, int exponent);
     int derivative(const formula::Formula& der);
-    int polynomial(const Polynomial& p);
+    int polynomial(const Polynomial& p, const std::vector<int>& variables);
+    int derived(int operation, plan::Op kind, int k);
+    int sum_of(int a, int b);
+    int difference_of(int a, int b);
+    int product_of(int a, int b);
+    int quotient_of(int a, int b);
     bool is_constant(int k) const { return entries_[static_cast<std::size_t>(k)].op == plan::Op::constant; }
     const exact::Rational& value(int k) const { return entries_[static_cast<std::size_t>(k)].value; }
 
@@ -62,6 +79,7 @@ private:
     std::vector<Entry> entries_;
     std::map<std::tuple<plan::Op, int, int>, int> known_;
     std::vector<std::pair<exact::Rational, int>> constants_;
+    std::map<std::tuple<int, plan::Op, int>, int> partials_;
     std::vector<int> results_;
 };
 

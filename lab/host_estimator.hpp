@@ -2,11 +2,13 @@
 // A plan run sample by sample on the host, with the runtime code and in the order of operations of the generated class:
 // the two agree to the last bit in the same scalar.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "algest/arithmetic.hpp"
+#include "algest/boxcar.hpp"
 #include "algest/estimator.hpp"
 #include "algest/parabola_filter.hpp"
 #include "generator/blueprint.hpp"
@@ -24,20 +26,34 @@ public:
         : plan_(&plan),
           blueprint_(plan::make_blueprint<S>(plan)),
           delayed_(plan.delayed()),
-          rings_(size(ring_scalars(blueprint_.signals, ring_length(blueprint_.solve, blueprint_.samples)))),
+          rings_(size(ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
           sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
           published_(size(published_scalars(blueprint_.solve, blueprint_.unknowns))),
-          push_scratch_(size(push_scratch(blueprint_.rows, blueprint_.unknowns))),
-          estimate_scratch_(size(estimate_scratch(blueprint_.rows, blueprint_.unknowns))),
+          whitened_at_(blueprint_.whiten_at),
+          ratio_(size(ratio_scalars(blueprint_.ratio.used, blueprint_.unknowns))),
+          boxcar_(size(boxcar_scalars(blueprint_.signals))),
+          means_(size(blueprint_.signals)),
+          push_scratch_(size(push_scratch(blueprint_.rows.rows, blueprint_.unknowns))),
+          estimate_scratch_(size(uncertainty_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns,
+                                                     plan.solve_instants) +
+                                 packed_size(blueprint_.unknowns))),
           previous_(plan.inputs.size()),
           filters_(plan.inputs.size()),
           derivatives_(plan.inputs.size()),
           signal_values_(plan.signals.operations.size()),
           signals_(plan.signals.results.size()),
-          lumped_(plan.lumped.size()),
+          lumped_(plan.lumped.size() + plan.perturbation.size()),
           map_values_(plan.parameter_map.operations.size()),
           mapped_(plan.parameter_map.results.size()),
-          parameters_(plan.parameters.size()) {
+          parameters_(plan.parameters.size()),
+          covariance_(size(packed_size(blueprint_.unknowns))),
+          lumped_bias_(plan.lumped.size()),
+          derivative_values_(plan.map_derivatives.operations.size()),
+          map_derivatives_(plan.map_derivatives.results.size()),
+          deviation_(plan.parameters.size()),
+          bias_(plan.parameters.size()) {
+        for (const plan::WindowSignal& s : plan.window_signals) held_.push_back(s.held ? 1 : 0);
+        held_.resize(size(blueprint_.signals), 0);
         reset();
     }
 
@@ -45,6 +61,7 @@ public:
     void reset() {
         algest::reset(blueprint_.view(), memory());
         run_ = 0;
+        block_ = {};
         status_ = Status::filling;
         condition_ = std::numeric_limits<S>::infinity();
         for (std::size_t k = 0; k < parameters_.size(); ++k) parameters_[k] = static_cast<S>(plan_->parameters[k].initial);
@@ -65,9 +82,15 @@ public:
         }
         plan::evaluate(plan_->signals, inputs, previous_.data(), derivatives_.data(), signal_values_.data(),
                        signals_.data());
-        if (!all_finite(signals_.data(), static_cast<int>(signals_.size()))) return refuse();
+        if (!all_finite(signals_.data(), static_cast<int>(plan_->window_signals.size()))) return refuse();
         if (delayed_) remember(inputs);
-        algest::push(blueprint_.view(), memory(), static_cast<const S*>(signals_.data()), push_scratch_.data());
+        const S* sample = signals_.data();
+        if (plan_->decimate > 1) {
+            const bool ends = average(boxcar_.data(), block_, held_.data(), blueprint_.signals, plan_->decimate, sample, means_.data());
+            if (!ends) return algest::prime(memory());
+            sample = means_.data();
+        }
+        algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
     }
 
     /// Solves with the windows as they are now. Cost: that of the runtime's estimate, and the parameter map.
@@ -86,6 +109,27 @@ public:
         return estimate();
     }
 
+    /// What the declared noise does to the estimate of the windows as they are now: the status of that estimate; ok: deviation() and
+    /// bias() are new, else they are as they were. Cost: that of the runtime's uncertainty.
+    Status uncertainty() {
+        const Latest<S> latest = algest::uncertainty(blueprint_.view(), memory(), estimate_scratch_.data(), lumped_.data(), covariance_.data(), lumped_bias_.data());
+        if (!latest.current || latest.status != Status::ok) return latest.status;
+        const int n = blueprint_.unknowns;
+        const std::size_t gradients = size(plan_->estimated() * n);
+        plan::evaluate<S>(plan_->map_derivatives, lumped_.data(), nullptr, nullptr, derivative_values_.data(), map_derivatives_.data());
+        for (int p = 0; p < plan_->estimated(); ++p) {
+            const S* gradient = map_derivatives_.data() + p * n;
+            const S* curvature = map_derivatives_.data() + gradients + size(p * packed_size(n));
+            deviation_[size(p)] = algest::deviation(gradient, covariance_.data(), n);
+            bias_[size(p)] = bias_of_function(gradient, curvature, covariance_.data(), lumped_bias_.data(), n);
+        }
+        return Status::ok;
+    }
+    /// Standard deviation of each estimated parameter, in its unit; one per plan.parameters, perturbations have none and stay 0.
+    const std::vector<S>& deviation() const { return deviation_; }
+    /// Expected estimate minus truth, to the second order of the noise; likewise.
+    const std::vector<S>& bias() const { return bias_; }
+
     Status status() const { return status_; }
     /// Of the scaled matrix that was solved last; infinity unless the status is ok or singular.
     S condition() const { return condition_; }
@@ -95,7 +139,7 @@ public:
 private:
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
-    Memory<S> memory() { return {rings_.data(), sums_.data(), published_.data(), &progress_}; }
+    Memory<S> memory() { return {rings_.data(), sums_.data(), published_.data(), &progress_, whitened_at_.data(), ratio_.data()}; }
 
     /// True when every input is finite and inside its declared limits.
     bool acceptable(const S* inputs) const {
@@ -128,6 +172,7 @@ private:
     void refuse() {
         algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
         run_ = 0;
+        block_ = {};
     }
 
     /// Lumped -> parameters; false, and the parameters as they were, if one is not finite.
@@ -146,6 +191,12 @@ private:
     std::vector<S> rings_;
     std::vector<S> sums_;
     std::vector<S> published_;
+    std::vector<S> whitened_at_;
+    std::vector<S> ratio_;
+    std::vector<S> boxcar_;
+    std::vector<S> means_;
+    std::vector<unsigned char> held_;
+    BoxcarProgress block_{};
     std::vector<S> push_scratch_;
     std::vector<S> estimate_scratch_;
     std::vector<S> previous_;
@@ -157,6 +208,12 @@ private:
     std::vector<S> map_values_;
     std::vector<S> mapped_;
     std::vector<S> parameters_;
+    std::vector<S> covariance_;
+    std::vector<S> lumped_bias_;
+    std::vector<S> derivative_values_;
+    std::vector<S> map_derivatives_;
+    std::vector<S> deviation_;
+    std::vector<S> bias_;
     Status status_ = Status::filling;
     S condition_ = std::numeric_limits<S>::infinity();
 };

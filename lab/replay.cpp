@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -59,7 +60,7 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
            const ProgressReport& progress) {
     constexpr std::size_t samples_between_reports = 512;
     HostEstimator<S> estimator(plan);
-    Replay out{{}, {}, {}, {}, plan.parameters.size()};
+    Replay out{{}, {}, {}, {}, plan.parameters.size(), {}};
     out.t.reserve(rows.size());
     out.status.reserve(rows.size());
     out.condition.reserve(rows.size());
@@ -79,6 +80,28 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
     return out;
 }
 
+template <class S>
+void run_deviations(const plan::Plan& plan, const std::vector<std::vector<double>>& inputs, std::size_t begin, std::size_t most, Replay& replay,
+                    const ProgressReport& progress) {
+    const auto last = std::find(replay.status.rbegin(), replay.status.rend(), Status::ok);
+    if (last == replay.status.rend()) return;
+    const std::size_t samples = static_cast<std::size_t>(replay.status.rend() - last);
+    const std::size_t stride = std::max<std::size_t>(1, samples / std::max<std::size_t>(most, 1));
+    replay.deviations.assign(replay.parameters.size(), std::numeric_limits<double>::quiet_NaN());
+    HostEstimator<S> estimator(plan);
+    std::vector<S> sample(inputs.size());
+    for (std::size_t k = 0; k < samples; ++k) {
+        for (std::size_t i = 0; i < inputs.size(); ++i) sample[i] = static_cast<S>(inputs[i][begin + k]);
+        estimator.step(sample.data());
+        if (k + 1 != samples && (k % stride != 0 || most <= 1)) continue;
+        if (estimator.status() != Status::ok || estimator.uncertainty() != Status::ok) continue;
+        for (int p = 0; p < plan.estimated(); ++p) {
+            replay.deviations[k * replay.parameter_count + static_cast<std::size_t>(p)] = static_cast<double>(estimator.deviation()[static_cast<std::size_t>(p)]);
+        }
+        if (progress) progress(static_cast<double>(k) / static_cast<double>(samples));
+    }
+}
+
 std::optional<double> median(std::vector<double> values) {
     if (values.empty()) return std::nullopt;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -93,6 +116,8 @@ std::string csv(const plan::Plan& plan, const Replay& replay) {
     for (const plan::Parameter& p : plan.parameters) {
         out += "," + csv_heading(p.name, p.unit);
     }
+    const std::size_t deviations = replay.deviations.empty() ? 0 : static_cast<std::size_t>(plan.estimated());
+    for (std::size_t p = 0; p < deviations; ++p) out += "," + csv_heading("sd(" + plan.parameters[p].name + ")", plan.parameters[p].unit);
     out += "\n";
     for (std::size_t k = 0; k < replay.samples(); ++k) {
         append_number<double>(out, replay.t[k]);
@@ -103,6 +128,10 @@ std::string csv(const plan::Plan& plan, const Replay& replay) {
         for (std::size_t p = 0; p < replay.parameter_count; ++p) {
             out += ",";
             append_number<S>(out, replay.parameter(k, p));
+        }
+        for (std::size_t p = 0; p < deviations; ++p) {
+            out += ",";
+            append_number<S>(out, replay.deviation(k, p));
         }
         out += "\n";
     }
@@ -122,6 +151,16 @@ std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording,
                                                 : run<float>(plan, recording, inputs, rows, progress);
 }
 
+void add_deviations(const plan::Plan& plan, const Recording& recording, std::size_t most, Replay& replay, const ProgressReport& progress) {
+    if (!plan.uncertain() || replay.t.empty()) return;
+    Diagnostics said_before;   // by replay(), which read the same columns
+    std::vector<std::vector<double>> inputs;
+    if (!read_inputs(plan, recording, inputs, said_before)) return;
+    const std::size_t begin = rows_of(recording, {replay.t.front(), replay.t.back()}).begin;
+    if (plan.scalar == plan::Scalar::float64) run_deviations<double>(plan, inputs, begin, most, replay, progress);
+    else run_deviations<float>(plan, inputs, begin, most, replay, progress);
+}
+
 ReplaySummary summarise(const Replay& replay) {
     ReplaySummary out;
     for (const Status s : replay.status) ++out.count[static_cast<std::size_t>(s)];
@@ -134,6 +173,8 @@ ReplaySummary summarise(const Replay& replay) {
         if (replay.samples() > 0) out.last.push_back(replay.parameter(replay.samples() - 1, p));
         std::transform(ok.begin(), ok.end(), values.begin(), [&](std::size_t k) { return replay.parameter(k, p); });
         out.median.push_back(median(values));
+        const double deviation = ok.empty() || replay.deviations.empty() ? std::numeric_limits<double>::quiet_NaN() : replay.deviation(ok.back(), p);
+        out.deviation.push_back(std::isfinite(deviation) ? std::optional(deviation) : std::nullopt);
     }
     std::transform(ok.begin(), ok.end(), values.begin(), [&](std::size_t k) { return replay.condition[k]; });
     out.condition_median = median(values);

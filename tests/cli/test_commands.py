@@ -104,6 +104,11 @@ class Derive(CommandLine):
         self.assertEqual([p["name"] for p in value["parameters"]], ["R", "L"])
         terms = [t for e in value["equations"] for r in e["rows"] for t in r["terms"]]
         self.assertFalse(any("weights" in t for t in terms))
+        self.write("two.toml", RL_CIRCUIT + "[estimator]\nform = 2\n")
+        text, _ = self.algest("derive", "two.toml")
+        self.assertIn("Pi = d^(1+p-1)/ds^(1+p-1)", text)
+        self.assertIn("i = 1, p = 2:  2 Y^(1) + s Y^(2)", text)       # two derivatives of s Y
+        self.assertEqual(self.algest_json("derive", "two.toml")["equations"][0]["form"], 2)
         value = self.algest_json("derive", "rl.toml", "--weights")
         terms = [t for e in value["equations"] for r in e["rows"] for t in r["terms"]]
         self.assertTrue(all(len(t["weights"]) == 51 for t in terms))     # 0.05 s at 1 ms
@@ -217,6 +222,25 @@ class Replay(CommandLine):
         last = lines[-1].split(",")
         self.assertEqual([float(last[3]), float(last[4])], [p["last"] for p in value["parameters"]])
         self.assertEqual(float(last[2]), value["condition"]["last"])
+
+    def test_standard_deviations_where_noise_is_declared(self):
+        found = []
+        for noise in ("1e-3", "2e-3"):
+            self.write("noisy.toml", RL_CIRCUIT.replace('i = { unit = "A" }', f'i = {{ unit = "A", noise = {noise} }}'))
+            value = self.algest_json("replay", "noisy.toml", "coil.csv", "-o", "e.csv")
+            rows = [line.split(",") for line in (self.folder / "e.csv").read_text().splitlines()]
+            self.assertEqual(rows[0][3:], ["R [ohm]", "L [H]", "sd(R) [ohm]", "sd(L) [H]"])
+            self.assertEqual(rows[1][5:], ["", ""])          # no estimate, no deviation
+            self.assertTrue(all(row[5] for row in rows[51:]))    # fewer than 500 samples: all of them
+            found.append([p["sd"] for p in value["parameters"]])
+            self.assertEqual([float(cell) for cell in rows[-1][5:]], found[-1])
+            alone = self.algest_json("replay", "noisy.toml", "coil.csv")     # without a CSV: that of the last estimate
+            self.assertEqual([p["sd"] for p in alone["parameters"]], found[-1])
+            out, _ = self.algest("replay", "noisy.toml", "coil.csv")
+            self.assertRegex(out, r"(?m)^parameter +last +sd +median")
+        for one, two in zip(*found):     # twice the noise: linear, but for the rounding of 1e-3 itself
+            self.assertGreater(one, 0)
+            self.assertAlmostEqual(two / one, 2, delta=1e-9)
 
     def test_a_stretch(self):
         value = self.algest_json("replay", "rl.toml", "coil.csv", "--from", "0.1", "--to", "0.16")

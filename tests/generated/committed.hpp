@@ -43,6 +43,10 @@ constexpr std::size_t inputs = sizeof(typename Class::Sample) / sizeof(typename 
 template <class Class>
 constexpr std::size_t parameters = sizeof(typename Class::Estimate) / sizeof(typename Class::Scalar) - 2;
 
+/// True where the model declares noise.
+template <class Class>
+constexpr bool uncertain = requires(Class& c) { c.uncertainty(); };
+
 template <class Class>
 using Inputs = std::array<typename Class::Scalar, inputs<Class>>;
 

@@ -38,7 +38,10 @@ public:
         REQUIRE(library_);
         step_ = reinterpret_cast<void (*)(const S*, S*)>(::dlsym(library_.get(), "step"));
         reset_ = reinterpret_cast<void (*)()>(::dlsym(library_.get(), "reset"));
+        uncertainty_ = reinterpret_cast<void (*)(S*)>(::dlsym(library_.get(), "uncertainty"));
+        estimated_ = static_cast<std::size_t>(plan.estimated());
         REQUIRE(step_ != nullptr);
+        REQUIRE((uncertainty_ != nullptr) == plan.uncertain());
         REQUIRE(reset_ != nullptr);
     }
 
@@ -46,6 +49,13 @@ public:
     std::vector<S> step(const S* inputs) {
         std::vector<S> out(width_);
         step_(inputs, out.data());
+        return out;
+    }
+
+    /// Status as a number, standard deviations, biases. Only for plans with noise.
+    std::vector<S> uncertainty() {
+        std::vector<S> out(1 + 2 * estimated_);
+        uncertainty_(out.data());
         return out;
     }
 
@@ -64,6 +74,16 @@ private:
         for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
             out += "    out[" + std::to_string(p + 2) + "] = e." + plan.parameters[p].name + ";\n";
         }
+        out += "}\n";
+        if (!plan.uncertain()) return out;
+        out += "SHOWN uncertainty(Class::Scalar* out) {\n    const Class::Uncertainty u = estimator.uncertainty();\n";
+        out += "    out[0] = Class::Scalar(static_cast<int>(u.status));\n";
+        const int estimated = plan.estimated();
+        for (int p = 0; p < estimated; ++p) {
+            const std::string& name = plan.parameters[static_cast<std::size_t>(p)].name;
+            out += "    out[" + std::to_string(1 + p) + "] = u.sd." + name + ";\n";
+            out += "    out[" + std::to_string(1 + estimated + p) + "] = u.bias." + name + ";\n";
+        }
         return out + "}\n";
     }
 
@@ -75,6 +95,8 @@ private:
     std::unique_ptr<void, Close> library_;
     void (*step_)(const S*, S*) = nullptr;
     void (*reset_)() = nullptr;
+    void (*uncertainty_)(S*) = nullptr;
+    std::size_t estimated_ = 0;
 };
 
 }  // namespace algest::test

@@ -49,8 +49,11 @@ void agree(const lab::Recording& recording) {
 
     std::vector<std::vector<double>> columns;
     for (const plan::Input& input : plan->inputs) columns.push_back(recording.column(input.column)->values);
+    lab::Replay with_deviations = *replay;
+    lab::add_deviations(*plan, recording, 20, with_deviations);
+    CHECK(with_deviations.deviations.empty() == !plan->uncertain());
     const auto estimator = std::make_unique<Class>();
-    std::size_t ok = 0, different = 0;
+    std::size_t ok = 0, different = 0, deviations = 0;
     for (std::size_t k = 0; k < recording.samples(); ++k) {
         Inputs<Class> in;
         for (std::size_t i = 0; i < in.size(); ++i) in[i] = columns[i][k];
@@ -61,6 +64,18 @@ void agree(const lab::Recording& recording) {
             std::memcmp(&found.condition, &replay->condition[k], sizeof found.condition) == 0 &&
             std::memcmp(found.values.data(), replay->parameters.data() + k * found.values.size(), sizeof found.values) == 0;
         different += same ? 0U : 1U;
+        if constexpr (uncertain<Class>) {
+            if (!std::isfinite(with_deviations.deviation(k, 0))) continue;
+            ++deviations;
+            const auto u = estimator->uncertainty();
+            CHECK(u.status == Status::ok);
+            CHECK(std::memcmp(&u.sd, with_deviations.deviations.data() + k * with_deviations.parameter_count, sizeof u.sd) == 0);
+        }
+    }
+    if (plan->uncertain()) {
+        CHECK(deviations >= 15);
+        CHECK(lab::summarise(with_deviations).deviation[0].has_value());
+        CHECK(lab::replay_csv(*plan, with_deviations).find(",sd(" + plan->parameters[0].name + ") [" + plan->parameters[0].unit + "]") != std::string::npos);
     }
     INFO(recording.file << ": " << ok << " of " << recording.samples() << " samples ok");
     CHECK(different == 0);

@@ -10,6 +10,7 @@
 
 #include "lab/host_estimator.hpp"
 #include "tests/generated/compiled_estimator.hpp"
+#include "tests/plants/changed_model.hpp"
 #include "tests/plants/estimates.hpp"
 
 using namespace algest;
@@ -125,6 +126,7 @@ void compare(const std::string& model, const std::string& compiler, bool rejects
     const int count = 8 * plan.samples_to_first_estimate() + 300;
     const std::vector<S> fed = samples<S>(plan, count);
     std::array<int, 4> seen{};
+    int uncertain = 0;
     for (int round = 0; round < 2; ++round) {
         for (std::size_t k = 0; k < fed.size(); k += plan.inputs.size()) {
             const std::vector<S> answer = compiled.step(fed.data() + k);
@@ -133,12 +135,24 @@ void compare(const std::string& model, const std::string& compiler, bool rejects
             REQUIRE(answer.size() == wanted.size());
             REQUIRE(std::memcmp(answer.data(), wanted.data(), answer.size() * sizeof(S)) == 0);
             ++seen[static_cast<std::size_t>(host.status())];
+            if (plan.uncertain() && k / plan.inputs.size() % 7 == 0) {
+                const std::vector<S> of_class = compiled.uncertainty();
+                const Status status = host.uncertainty();
+                REQUIRE(of_class[0] == S(static_cast<int>(status)));
+                if (status != Status::ok) continue;
+                const std::size_t n = static_cast<std::size_t>(plan.estimated());
+                std::vector<S> of_host(host.deviation().begin(), host.deviation().begin() + plan.estimated());
+                of_host.insert(of_host.end(), host.bias().begin(), host.bias().begin() + plan.estimated());
+                REQUIRE(std::memcmp(of_class.data() + 1, of_host.data(), 2 * n * sizeof(S)) == 0);
+                ++uncertain;
+            }
         }
         compiled.reset();
         host.reset();
     }
     CHECK(seen[static_cast<std::size_t>(Status::ok)] > 100);
     CHECK((seen[static_cast<std::size_t>(Status::rejected)] > 3 || !rejects));
+    CHECK((uncertain > 10 || !plan.uncertain()));
 }
 
 /// What a desktop, a controller's debug build and an over-eager user would say. All keep -ffp-contract=off.
@@ -158,6 +172,23 @@ TEST_CASE("same bits: derivatives inside nonlinearities, limits, an offset") {
     for (const std::string& compiler : compilers) {
         compare<double>(friction, compiler);
         compare<float>(friction, compiler);
+    }
+}
+
+TEST_CASE("same bits: noise, perturbations, whitened rows, deviation limit, ratio filter, decimation, form 2") {
+    const std::vector<std::pair<std::string, std::string>> noisy{{"y = { unit = \"m\" }", "y = { unit = \"m\", noise = 0.01 }"},
+                                                                 {"u = { unit = \"N\" }", "u = { unit = \"N\", noise = 0.02 }"},
+                                                                 {"kappa = 2", "kappa = 2\nperturbation = \"force\""}};
+    const std::string model = plants::changed(perturbed, noisy);
+    // initial values: whitening starts from them
+    const std::string with_initial = plants::changed(model, {{"[transfer]", "[parameters]\na0 = { initial = 1 }\na1 = { initial = 1 }\nb0 = { initial = 1 }\nb1 = { initial = 1 }\nc0 = { initial = 1 }\n[transfer]"},
+                                                             {"kappa = 2", "kappa = 2\nrows = 6"}});
+    std::size_t turn = 0;
+    for (const std::string& text : {model + "[estimator]\nform = 2\n", model + "[estimator]\ndeviation_limit = 1e6\n", with_initial + "[estimator]\nwhiten = true\n",
+                                    model + "[estimator]\nsolve = \"robust\"\nsolve_window = 0.04\nratio_filter = { omega_n = 30 }\n",
+                                    plants::changed(model, {{"period = 1e-3", "period = 1e-3\ndecimate = 3"}}) + "[estimator]\nsolve = \"robust\"\nsolve_window = 0.021\n"}) {
+        compare<double>(text, compilers[turn++ % compilers.size()]);
+        compare<float>(text, compilers[turn++ % compilers.size()]);
     }
 }
 

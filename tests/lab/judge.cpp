@@ -38,7 +38,7 @@ Variant at(const Variant& v, double gap) {
 }
 
 /// A search that ended with this variant.
-Selection selected(Variant best) { return {std::move(best), {}, {}}; }
+Selection selected(Variant best) { return {std::move(best), {}, {}, false}; }
 
 struct Found {
     double gap;                ///< of what was chosen

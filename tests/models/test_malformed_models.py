@@ -163,6 +163,19 @@ def estimator(text):
     return COIL + "[estimator]\n" + text
 
 
+NOISY = COIL.replace('i = { unit = "A" }', 'i = { unit = "A", noise = 0.01 }')
+
+
+def noisy(text):
+    """COIL with noise on the current."""
+    return NOISY + "[estimator]\n" + text
+
+
+def equation(text):
+    """COIL with more keys in its equation, the last section."""
+    return COIL + text
+
+
 def feedback(text):
     return COIL + "[[feedback]]\n" + text
 
@@ -309,7 +322,6 @@ VALUES = [
     ("unknown solver", estimator('solve = ▸"cholesky"\n'), "square | robust | least_squares | elimination"),
     ("misspelt solver", estimator('solve = ▸"least_sqaures"\n'), "did you mean least_squares?"),
     ("solver of a later version", estimator('solve = ▸"elimination"\n'), "not supported by this version"),
-    ("form 2", estimator("form = ▸2\n"), "not supported by this version"),
     ("form 3", estimator("form = ▸3\n"), "whole number from 1 to 2"),
     ("unknown engine", estimator('engine = ▸"gpu"\n'), "fir | moments"),
     ("unknown quadrature", estimator('quadrature = ▸"romberg"\n'), "exact | trapezoid | simpson"),
@@ -320,6 +332,39 @@ VALUES = [
     ("equations of different units in more rows than unknowns", changed(MOTOR, "robust", "square", "- b*w\"", "- b*w\"\nrows = 3"), "pooled with equations of other units"),
     ("forgetting above 1", estimator("forgetting = ▸1.01\n"), "above 1"),
     ("forgetting everything", estimator("forgetting = ▸0\n"), "not positive"),
+    ("whiten that is no boolean", noisy("whiten = ▸1\n"), "neither true nor false"),
+    ("whitened S(t)", noisy('solve = "robust"\nwhiten = ▸true\n'), "whiten is for the rows of one instant"),
+    ("whitened without noise", estimator("whiten = ▸true\n"), "needs the noise of the sensors"),
+    ("whitened without initial values", changed(noisy("whiten = true\n"), "[estimator]", "rows = 4\n▸[estimator]"), "declare initial"),
+    ("whitened rows without noise", changed(PLAIN, "x = {}", "x = { noise = 1 }", "a = {}", "a = { initial = 1 }", "b = {}", "b = { initial = 1 }",
+                                            'ode = "der(x) = a*x + b*u"\n', 'ode = "der(x) = a*x + b*u"\nrows = 2\n[[equation]]\node = "der(y) = a*y + b*u"\nrows = 2\n'
+                                            "▸[estimator]\nwhiten = true\n"), "have no noise"),
+    ("deviation limit of zero", noisy("deviation_limit = ▸0\n"), "not positive"),
+    ("deviation limit without noise", estimator("deviation_limit = ▸0.1\n"), "needs the noise of the sensors"),
+    ("deviation limit of all rows since reset", noisy('solve = "least_squares"\ndeviation_limit = ▸0.1\n'), "not to be had with least_squares"),
+    ("uncertainty that is no boolean", noisy('uncertainty = ▸"yes"\n'), "neither true nor false"),
+    ("a deviation limit without uncertainty", noisy("deviation_limit = 0.1\nuncertainty = ▸false\n"), "leaves out what whiten and deviation_limit need"),
+    ("whitening without uncertainty", noisy("whiten = true\nuncertainty = ▸false\n"), "leaves out what whiten and deviation_limit need"),
+    ("uncertainty without noise", estimator("uncertainty = ▸true\n"), "needs the noise of the sensors"),
+    ("uncertainty of all rows since reset", noisy('solve = "least_squares"\nuncertainty = ▸true\n'), "not to be had with least_squares"),
+    ("ratio filter that is a number", estimator("ratio_filter = ▸15\n"), "table"),
+    ("ratio filter of a square solve", estimator("ratio_filter = ▸{ omega_n = 15 }\n"), 'needs solve = "robust"'),
+    ("ratio filter without omega_n", estimator('solve = "robust"\nratio_filter = ▸{ zeta = 1 }\n'), "without omega_n"),
+    ("ratio filter with a misspelt key", estimator('solve = "robust"\nratio_filter = { omega_n = 15, ▸zetta = 1 }\n'), "did you mean zeta?"),
+    ("ratio filter, negative omega_n", estimator('solve = "robust"\nratio_filter = { omega_n = ▸-15 }\n'), "not positive"),
+    ("ratio filter, zeta above 10", estimator('solve = "robust"\nratio_filter = { omega_n = 15, zeta = ▸11 }\n'), "above 10"),
+    ("ratio filter faster than the samples", estimator('solve = "robust"\nratio_filter = ▸{ omega_n = 1001 }\n'), "faster than the samples"),
+    ("decimation by half", coil("period = 0.001", "period = 0.001\ndecimate = ▸0.5"), "whole number from 1 to 10000"),
+    ("decimation by nothing", coil("period = 0.001", "period = 0.001\ndecimate = ▸0"), "whole number from 1 to 10000"),
+    ("window with a rest of a decimated period", coil("period = 0.001", "period = 0.001\ndecimate = 3", "0.02", "▸0.02"), "not a whole number of decimated periods"),
+    ("solve_window with a rest of a decimated period", changed(estimator('solve = "robust"\nsolve_window = ▸0.012\n'), "period = 0.001", "period = 0.001\ndecimate = 5"), "not a whole number of decimated periods"),
+    ("noise that enters no row", changed(estimator("deviation_limit = 0.1\n"), "[estimator]", "▸[estimator]", "- R*i", "- R*sgn(w)*i", 'v = {', 'w = { unit = "A", noise = 1 }\nv = {'), "enters no row"),
+    ("noise that goes through the parabola filter", changed(noisy('uncertainty = true\n'), "[estimator]", "▸[estimator]", "- R*i", "- R*sin(der(i)*tau)*i", "[constants]", '[constants]\ntau = { value = 1, unit = "s/A" }'), "through the parabola filter"),
+    ("a perturbation that nothing annihilates", equation('perturbation = ▸"force"\n'), "kappa = 0 annihilates none"),
+    ("a perturbation with a signal's name", equation('kappa = 1\nperturbation = ▸"i"\n'), "of something else"),
+    ("a perturbation whose first coefficient is a signal", changed(equation('kappa = 2\nperturbation = ▸"f"\n'), "v = {", 'f1 = { unit = "V" }\nv = {'), "of something else"),
+    ("a perturbation that is no name", equation('kappa = 1\nperturbation = ▸"a force"\n'), "is not a name"),
+    ("a perturbation that is a keyword", equation('kappa = 1\nperturbation = ▸"double"\n'), "C++"),
     ("condition limit of zero", estimator("condition_limit = ▸0\n"), "not positive"),
     ("solve_window with a rest", estimator("solve_window = ▸0.0015\n"), "not a whole number of periods"),
     ("solve_window of a million and one periods", estimator("solve_window = ▸1000.001\n"), "more than 1000000"),

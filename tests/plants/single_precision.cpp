@@ -8,6 +8,7 @@
 #include "tests/plants/estimates.hpp"
 #include "tests/plants/magnetic_bearing.hpp"
 #include "tests/plants/pmsm.hpp"
+#include "tests/plants/pmsm_model.hpp"
 
 using namespace algest;
 using namespace algest::plants;
@@ -38,6 +39,28 @@ TEST_CASE("float: PMSM") {
     const double error = worst_of(estimates<float>(in_float("pmsm_electrical"), samples), {motor.R, motor.L, motor.K});
     fmt::print("float, PMSM, ideal currents, worst: {:.1e}\n", error);
     CHECK(error < 1e-3);  // a tenth of what the sensors' noise leaves
+}
+
+TEST_CASE("float: what uncertainty() says of the PMSM is what it says in double") {
+    Pmsm motor;
+    motor.period = 1e-3;
+    motor.current_noise = 0.03;
+    Diagnostics diagnostics;
+    const auto in_double = generator::plan_from_model(ALGEST_SOURCE "/models/pmsm_electrical.toml", {}, diagnostics);
+    const plan::Plan plan = in_float("pmsm_electrical");
+    REQUIRE(in_double);
+    lab::HostEstimator<double> fine(*in_double);
+    lab::HostEstimator<float> coarse(plan);
+    for (const PmsmSample& s : simulate(motor, 1001)) {
+        fine.push(inputs(s).data());
+        coarse.push(std::array<float, 5>{static_cast<float>(s.v_d), static_cast<float>(s.v_q), static_cast<float>(s.i_d), static_cast<float>(s.i_q), static_cast<float>(s.omega)}.data());
+    }
+    REQUIRE(fine.uncertainty() == Status::ok);
+    REQUIRE(coarse.uncertainty() == Status::ok);
+    for (std::size_t p = 0; p < 3; ++p) {
+        fmt::print("float, PMSM, sd of {}: {:.4e}, in double {:.4e}\n", plan.parameters[p].name, coarse.deviation()[p], fine.deviation()[p]);
+        CHECK(coarse.deviation()[p] == Approx(fine.deviation()[p]).epsilon(1e-2));   // S(t) squares a condition of about 30: 1e3 times 6e-8, and a decade
+    }
 }
 
 TEST_CASE("float: bearing, in SI units") {

@@ -91,6 +91,53 @@ TEST_CASE("an estimate into which pushes fall is that of its beginning, or none 
     }
 }
 
+TEST_CASE("an uncertainty() into which pushes fall is that of its beginning, or none if they are more than eight") {
+    struct Of {
+        Latest<Interruptible> latest;
+        std::array<double, 5> numbers;
+    };
+    const auto of = [](test::SmallEstimator<Interruptible>& estimator) {
+        std::array<Interruptible, 3> covariance{};
+        std::array<Interruptible, 2> bias{};
+        const auto latest = estimator.uncertainty(covariance, bias);
+        return Of{latest, {covariance[0], covariance[1], covariance[2], bias[0], bias[1]}};
+    };
+    for (const Solve solve : {Solve::square, Solve::robust}) {
+        const test::SmallData<Interruptible> data(solve, samples, solve == Solve::robust ? instants : 0, 1.0, 1.0, true);
+        test::SmallEstimator<Interruptible> filled(data);
+        for (unsigned k = 0; k < 60; ++k) push(filled, k);
+        Interruptible::arm(-1, {});
+        const Of undisturbed = of(filled);
+        const long operations = Interruptible::operations();
+        REQUIRE(undisturbed.latest.current);
+        REQUIRE(undisturbed.latest.status == Status::ok);
+        REQUIRE(undisturbed.numbers[0] > 0.0);
+        int spoilt = 0;
+        for (long at = 0; at < operations; at += operations / 150) {
+            for (const int pushes : {1, published_slots, spare_samples, spare_samples + 1, 3 * samples}) {
+                test::SmallEstimator<Interruptible> estimator = filled;
+                Interruptible::arm(at, [&] {
+                    for (int k = 0; k < pushes; ++k) push(estimator, 60U + static_cast<unsigned>(k));
+                });
+                const Of found = of(estimator);
+                Interruptible::disarm();
+                INFO("solve " << static_cast<int>(solve) << ", " << pushes << " pushes at operation " << at);
+                if (pushes < published_slots) REQUIRE(found.latest.current);
+                if (!found.latest.current) {
+                    ++spoilt;
+                } else if (at > 8) {
+                    REQUIRE(found.numbers == undisturbed.numbers);
+                } else {   // pushes that fall before it looks at the producer belong to its beginning
+                    test::SmallEstimator<Interruptible> straight = filled;
+                    for (int k = 0; k < pushes; ++k) push(straight, 60U + static_cast<unsigned>(k));
+                    REQUIRE((found.numbers == undisturbed.numbers || found.numbers == of(straight).numbers));
+                }
+            }
+        }
+        CHECK(spoilt > 0);
+    }
+}
+
 TEST_CASE("a refused sample that falls into an estimate leaves it as it was") {
     for (const Solve solve : {Solve::square, Solve::robust, Solve::least_squares}) {
         const test::SmallData<Interruptible> data(solve, samples, instants);

@@ -19,9 +19,11 @@ struct SmallData {
     std::vector<S> tables;
     std::vector<Functional> functionals;
     std::vector<Term<S>> terms;
+    std::vector<NoiseChannel<S>> noise;   ///< of one raw signal, which enters the first two; what it does to the second moves with the third
     Blueprint<S> blueprint;
 
-    SmallData(Solve solve, int samples, int instants, S keep = S(1), double factor = 1.0) {
+    SmallData(Solve solve, int samples, int instants, S keep = S(1), double factor = 1.0, bool noisy = false) {
+        if (noisy) noise = {{0, 0, no_partial, 0, S(0.01)}, {0, 1, 2, 0, S(0.02)}};
         for (int t = 0; t < 2 * small_signals; ++t) {
             for (int k = 0; k < samples; ++k) tables.push_back(S(((k * 37 + t * 101 + 11) % 64 - 30.5) / 64.0));
         }
@@ -44,7 +46,13 @@ struct SmallData {
                      solve,
                      instants,
                      keep,
-                     S(1e12)};
+                     S(1e12),
+                     kept_samples(solve, instants, noisy, false),
+                     {noisy ? 1 : 0, {noise.data(), static_cast<int>(noise.size())}},
+                     S(0),
+                     {},
+                     {},
+                     {}};
     }
     SmallData(const SmallData&) = delete;
     SmallData& operator=(const SmallData&) = delete;
@@ -57,7 +65,7 @@ public:
     explicit SmallEstimator(const SmallData<S>& data) : blueprint_(&data.blueprint) {
         const Blueprint<S>& b = *blueprint_;
         const auto sized = [](int n) { return std::vector<S>(static_cast<std::size_t>(n), S(0)); };
-        rings_ = sized(ring_scalars(small_signals, ring_length(b.solve, b.rows.samples)));
+        rings_ = sized(ring_scalars(small_signals, ring_length(b.rows.samples, b.kept)));
         sums_ = sized(sum_scalars(b.solve, small_unknowns, b.solve_instants));
         published_ = sized(published_scalars(b.solve, small_unknowns));
         reset();
@@ -72,6 +80,12 @@ public:
     Latest<S> estimate(std::array<S, small_unknowns>& lumped) {
         std::array<S, estimate_scratch(small_rows, small_unknowns)> scratch{};
         return algest::estimate(*blueprint_, memory(), scratch.data(), lumped.data());
+    }
+    /// Covariance (packed) and bias; instants: of S(t).
+    Latest<S> uncertainty(std::array<S, packed_size(small_unknowns)>& covariance, std::array<S, small_unknowns>& bias) {
+        std::vector<S> scratch(static_cast<std::size_t>(uncertainty_scratch(small_rows, small_unknowns, blueprint_->solve_instants)));
+        std::array<S, small_unknowns> lumped{};
+        return algest::uncertainty(*blueprint_, memory(), scratch.data(), lumped.data(), covariance.data(), bias.data());
     }
 
 private:

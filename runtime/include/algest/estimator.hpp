@@ -10,17 +10,21 @@
 #include "algest/abi.hpp"
 #include "algest/arithmetic.hpp"
 #include "algest/gram_window.hpp"
+#include "algest/noise.hpp"
+#include "algest/ratio_filter.hpp"
 #include "algest/rows.hpp"
 #include "algest/solve_gram.hpp"
 #include "algest/solve_rows.hpp"
 #include "algest/status.hpp"
 #include "algest/triangle_update.hpp"
+#include "algest/uncertainty.hpp"
+#include "algest/whitening.hpp"
 #include "algest/window.hpp"
 
 namespace algest {
 
 enum class Solve : std::uint8_t {
-    square,         ///< the rows of the newest instant alone, solved in estimate()
+    square,         ///< the rows of the newest instant alone, solved in estimate(); in the least-squares sense if there are more than unknowns
     robust,         ///< S(t) over the last solve_instants instants, summed in push()
     least_squares   ///< every row since reset, absorbed in push()
 };
@@ -33,16 +37,25 @@ struct Blueprint {
     int solve_instants;   ///< robust: instants in S(t)
     S keep;               ///< least_squares: factor on the old triangle at each instant; 1 forgets nothing
     S condition_limit;    ///< above it an estimate is singular
+    int kept;             ///< samples that the rings keep beyond one window; kept_samples() or more
+    Noise<S> noise;       ///< of the sensors
+    S deviation_limit;    ///< an estimate is singular where a standard deviation exceeds this part of its unknown; 0: not asked
+    View<S> whiten_at;    ///< unknowns at which rows are whitened until the first ok estimate; empty: they are not whitened
+    LowPass<S> ratio;     ///< robust: of numerators and denominator
+    RowSet<S> perturbation;   ///< rows whose residuals at the estimate are the perturbation's coefficients; none: rows == 0
 };
 
-/// Pushes that may fall into one estimate() of a square estimator without spoiling it.
+/// Pushes that may fall into one reading of the windows without spoiling it.
 constexpr int spare_samples = 8;
 /// Copies of the sums that push() publishes in turn.
 constexpr int published_slots = 4;
 
-constexpr int ring_length(Solve solve, int samples) noexcept {
-    return solve == Solve::square ? samples + spare_samples : samples;
+/// Samples beyond one window that rings must keep: estimate() reads windows where the rows of one instant are solved or a perturbation
+/// is asked for; uncertainty() reads all windows of S(t).
+constexpr int kept_samples(Solve solve, int instants, bool uncertain, bool perturbation) noexcept {
+    return (solve == Solve::square || uncertain || perturbation ? spare_samples : 0) + (solve == Solve::robust && uncertain ? instants - 1 : 0);
 }
+constexpr int ring_length(int samples, int kept) noexcept { return samples + kept; }
 constexpr int sum_scalars(Solve solve, int unknowns, int instants) noexcept {
     return solve == Solve::square   ? 1
            : solve == Solve::robust ? gram_scalars(unknowns, instants)
@@ -53,12 +66,18 @@ constexpr int published_scalars(Solve solve, int unknowns) noexcept {
 }
 /// Scalars of scratch that push needs.
 constexpr int push_scratch(int rows, int unknowns) noexcept { return rows * (unknowns + 1); }
-/// Scalars of scratch that estimate needs.
+/// Scalars of scratch that estimate needs without a deviation limit. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     int most = solve_rows_scratch(unknowns);
     if (solve_gram_scratch(unknowns) > most) most = solve_gram_scratch(unknowns);
     if (solve_triangle_scratch(unknowns) > most) most = solve_triangle_scratch(unknowns);
-    return rows * (unknowns + 1) + packed_size(unknowns + 1) + most;
+    if (residual_factor_scratch(rows, unknowns) > most) most = residual_factor_scratch(rows, unknowns);
+    return rows * (unknowns + 1) + packed_size(unknowns + 1) + rows * rows + most;
+}
+/// Scalars of scratch that uncertainty needs, and estimate with a deviation limit. instants: 0 unless robust.
+constexpr int uncertainty_scratch(int rows, int unknowns, int instants) noexcept {
+    return estimate_scratch(rows, unknowns) + node_count(instants) * rows * (2 * unknowns + 1) + unknowns * unknowns + packed_size(unknowns) +
+           propagate_scratch(rows, unknowns);
 }
 
 /// How far the producer is. Written by push and reset alone.
@@ -80,6 +99,8 @@ struct Memory {
     S* sums;
     S* published;
     Progress* progress;
+    S* whitened_at = nullptr;   ///< unknowns; the consumer's, where rows are whitened
+    S* ratio = nullptr;         ///< ratio_scalars; the consumer's, where a ratio filter is used
 };
 
 namespace detail {
@@ -115,6 +136,8 @@ inline std::uint32_t pushes_since(const Progress& now, const Progress& then) noe
 template <class S>
 inline void reset(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     *memory.progress = Progress{};
+    for (int u = 0; u < blueprint.whiten_at.size; ++u) memory.whitened_at[u] = blueprint.whiten_at[u];
+    if (blueprint.ratio.used) restart_ratio(memory.ratio);
     if (blueprint.solve == Solve::robust) clear_gram(memory.sums, memory.progress->gram, blueprint.rows.unknowns);
     if (blueprint.solve == Solve::least_squares) {
         for (int i = 0; i < triangle_scalars(blueprint.rows.unknowns); ++i) memory.sums[i] = S(0);
@@ -128,7 +151,7 @@ template <class S>
 inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     Progress& p = *memory.progress;
-    const int length = ring_length(blueprint.solve, rows.samples);
+    const int length = ring_length(rows.samples, blueprint.kept);
     detail::begin_write(p);
     if (sample == nullptr) {
         p.filled = 0;
@@ -178,41 +201,188 @@ struct Latest {
     S condition;   ///< of the scaled matrix that was solved; infinity unless status is ok or singular
 };
 
-/// Solves with the newest windows; writes `lumped` (unknowns entries) only with status ok.
-/// Cost: square: all dot products and one solve; else one solve. Never fails, fixed loops.
+namespace detail {
+
+/// Scratch of estimate, in turn.
 template <class S>
-inline Latest<S> estimate(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped) noexcept {
+struct EstimateScratch {
+    S* matrix;   ///< [P|Q] of the newest instant, whitened where that is asked for
+    S* sums;     ///< packed [P|Q]'[P|Q], or the triangle
+    S* factor;   ///< what whitens
+    S* work;     ///< of the solvers
+};
+template <class S>
+inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch) noexcept {
+    S* const sums = scratch + rows.rows * (rows.unknowns + 1);
+    S* const factor = sums + packed_size(rows.unknowns + 1);
+    return {scratch, sums, factor, factor + rows.rows * rows.rows};
+}
+
+/// [P|Q] of the newest instant, whitened where that is asked for; false if it cannot be whitened.
+template <class S>
+inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, int head, const EstimateScratch<S>& at) noexcept {
+    const RowSet<S>& rows = blueprint.rows;
+    const WindowPosition window_at = newest(rows.samples, ring_length(rows.samples, blueprint.kept), head);
+    evaluate_rows(rows, memory.rings, window_at, at.matrix);
+    if (blueprint.whiten_at.size == 0) return true;
+    if (!residual_factor(rows, blueprint.noise, memory.rings, window_at, memory.whitened_at, at.work, at.factor)) return false;
+    whiten(at.factor, at.matrix, rows.rows, rows.unknowns + 1);
+    return true;
+}
+
+/// Covariance and, unless nullptr, bias of `lumped`, which was solved at `then`. scratch: uncertainty_scratch; its first part as the solve left
+/// it. False where the rows that were solved are not regular.
+template <class S>
+inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* covariance,
+                      S* bias) noexcept {
+    const RowSet<S>& rows = blueprint.rows;
+    const int n = rows.unknowns;
+    const int width = n + 1;
+    const int entries = rows.rows * width;
+    const int instants = blueprint.solve == Solve::robust ? blueprint.solve_instants : 0;
+    const int span = rows.samples + (instants < 1 ? 0 : instants - 1);
+    const int length = ring_length(rows.samples, blueprint.kept);
+    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch);
+    S* const all_rows = scratch + algest::estimate_scratch(rows.rows, n);
+    S* const gain = all_rows + node_count(instants) * entries;
+    S* const inverse = gain + node_count(instants) * n * rows.rows;
+    S* const column = inverse + n * n;
+    S* const work = column + packed_size(n);
+    const WindowPosition oldest = newest(span, length, then.head);
+    Influence<S> by = {all_rows, gain, inverse, nullptr};
+
+    if (blueprint.solve == Solve::square) {
+        if (!newest_rows(blueprint, memory, then.head, at)) return false;
+        if (blueprint.whiten_at.size > 0) by.factor = at.factor;
+        for (int i = 0; i < entries; ++i) all_rows[i] = at.matrix[i];
+        for (int r = 0; r < rows.rows; ++r) {   // how theta moves with Q of row r
+            for (int i = 0; i < entries; ++i) at.matrix[i] = all_rows[i];
+            for (int k = 0; k < rows.rows; ++k) at.matrix[k * width + n] = k == r ? S(1) : S(0);
+            if (!solve_rows(at.matrix, rows.rows, n, at.work, column).regular) return false;
+            for (int u = 0; u < n; ++u) gain[u * rows.rows + r] = column[u];
+        }
+        if (rows.rows == n) by.inverse = nullptr;
+        for (int u = 0; u < n; ++u) {
+            for (int v = 0; v < n; ++v) {
+                S sum = S(0);
+                for (int r = 0; r < rows.rows; ++r) sum += gain[u * rows.rows + r] * gain[v * rows.rows + r];
+                inverse[u * n + v] = sum;
+            }
+        }
+    } else {
+        for (int k = 0; k < n; ++k) {           // column k of S^-1, by the copy that the solve left: push may have moved on from the published one
+            for (int i = 0; i < n; ++i) at.sums[packed_index(width, i, n)] = i == k ? S(1) : S(0);
+            if (!solve_gram(at.sums, n, at.work, column).regular) return false;
+            for (int u = 0; u < n; ++u) inverse[u * n + k] = column[u];
+        }
+        for (int m = 0; m < node_count(instants); ++m) {
+            const Node of = node(m, instants);
+            const int start = oldest.start + of.start;
+            S* const matrix = all_rows + m * entries;
+            evaluate_rows(rows, memory.rings, WindowPosition{length, start >= length ? start - length : start}, matrix);
+            for (int u = 0; u < n; ++u) {
+                for (int r = 0; r < rows.rows; ++r) {
+                    S sum = S(0);
+                    for (int c = 0; c < n; ++c) sum += inverse[u * n + c] * matrix[r * width + c];
+                    gain[(m * n + u) * rows.rows + r] = S(of.instants) * sum;
+                }
+            }
+        }
+    }
+    propagate_noise(rows, blueprint.noise, memory.rings, oldest, instants, by, lumped, work, covariance, bias);
+    return true;
+}
+
+/// The residuals of the perturbation's rows at `lumped`.
+template <class S>
+inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* out) noexcept {
+    const RowSet<S>& rows = blueprint.perturbation;
+    evaluate_rows(rows, memory.rings, newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head), scratch);
+    for (int r = 0; r < rows.rows; ++r) out[r] = residual(scratch + r * (rows.unknowns + 1), lumped, rows.unknowns);
+}
+
+/// True when no standard deviation exceeds the limit's part of its unknown.
+template <class S>
+inline bool certain_enough(const S* covariance, const S* lumped, int unknowns, S limit) noexcept {
+    for (int u = 0; u < unknowns; ++u) {
+        const S most = limit * lumped[u];
+        if (!(covariance[packed_index(unknowns, u, u)] <= most * most)) return false;
+    }
+    return true;
+}
+
+/// estimate, and what it copied of the producer's progress.
+template <class S>
+inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, Progress& then) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const S none = std::numeric_limits<S>::infinity();
-    Progress then;
-    if (!detail::copy_progress(*memory.progress, then)) return {false, Status::filling, none};
-    if (then.rejected != 0U) return {true, Status::rejected, none};
-    if (then.filled < rows.samples) return {true, Status::filling, none};
-
-    const int entries = rows.rows * (rows.unknowns + 1);
-    const int size = packed_size(rows.unknowns + 1);
-    S* matrix = scratch;
-    S* sums = scratch + entries;
-    S* work = sums + size;
-    Solved<S> solved;
-    if (blueprint.solve == Solve::square) {
-        const int length = ring_length(blueprint.solve, rows.samples);
-        evaluate_rows(rows, memory.rings, newest(rows.samples, length, then.head), matrix);
-        if (detail::pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) {
-            return {false, Status::filling, none};
-        }
-        solved = solve_rows(matrix, rows.rows, rows.unknowns, work, lumped);
-    } else {
-        if (then.absorbed == 0U) return {true, Status::filling, none};
-        for (int k = 0; k < size; ++k) sums[k] = memory.published[then.slot * size + k];
-        if (detail::pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) {
-            return {false, Status::filling, none};
-        }
-        solved = blueprint.solve == Solve::robust ? solve_gram(sums, rows.unknowns, work, lumped)
-                                                  : solve_triangle(sums, rows.unknowns, work, lumped);
+    if (!copy_progress(*memory.progress, then)) return {false, Status::filling, none};
+    const bool waits = then.rejected != 0U || then.filled < rows.samples || (blueprint.solve != Solve::square && then.absorbed == 0U);
+    if (waits) {
+        if (blueprint.ratio.used) restart_ratio(memory.ratio);
+        return {true, then.rejected != 0U ? Status::rejected : Status::filling, none};
     }
-    const bool good = solved.regular && solved.condition <= blueprint.condition_limit;
+
+    const int n = rows.unknowns;
+    const int size = packed_size(n + 1);
+    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch);
+    Solved<S> solved = {false, none};
+    if (blueprint.solve == Solve::square) {
+        const bool usable = newest_rows(blueprint, memory, then.head, at);
+        if (pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, none};
+        if (usable) solved = solve_rows(at.matrix, rows.rows, n, at.work, lumped);
+    } else {
+        for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * size + k];
+        if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
+        solved = blueprint.solve == Solve::robust ? solve_gram(at.sums, n, at.work, lumped) : solve_triangle(at.sums, n, at.work, lumped);
+    }
+    bool good = solved.regular && solved.condition <= blueprint.condition_limit;
+    if (blueprint.ratio.used) {   // what solve_gram leaves in its scratch: L and D, then the scales
+        if (!good) filter_nothing(blueprint.ratio, memory.ratio, n);
+        good = good && filter_ratio(blueprint.ratio, memory.ratio, at.work, n + 1, at.work + n * n, n, lumped);
+    }
+    if (good && blueprint.deviation_limit > S(0)) {
+        S* const covariance = scratch + uncertainty_scratch(rows.rows, n, blueprint.solve == Solve::robust ? blueprint.solve_instants : 0);
+        good = propagate(blueprint, memory, then, scratch, lumped, covariance, static_cast<S*>(nullptr)) &&
+               certain_enough(covariance, lumped, n, blueprint.deviation_limit);
+    }
+    if (good && blueprint.perturbation.rows > 0) perturbation_of(blueprint, memory, then, at.matrix, lumped, lumped + n);
+    const bool reads_windows = blueprint.deviation_limit > S(0) || blueprint.perturbation.rows > 0;
+    if (reads_windows && pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, none};
     return {true, good ? Status::ok : Status::singular, solved.condition};
+}
+
+}  // namespace detail
+
+/// Solves with the newest windows; writes `lumped` (unknowns entries, then the perturbation's) only where it is of use: with status ok.
+/// scratch: estimate_scratch; with a deviation limit uncertainty_scratch and packed_size(unknowns) more.
+/// Cost: square: all dot products and one solve; else one solve; a perturbation's dot products; whitened rows: residual_factor; a deviation
+/// limit: that of uncertainty. With a ratio filter call it once per push. Never fails, fixed loops.
+template <class S>
+inline Latest<S> estimate(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped) noexcept {
+    Progress then;
+    const Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then);
+    if (latest.current && latest.status == Status::ok) {
+        for (int u = 0; u < blueprint.whiten_at.size; ++u) memory.whitened_at[u] = lumped[u];
+    }
+    return latest;
+}
+
+/// Solves with the newest windows as estimate does (a ratio filter aside, which stays where it is), and says how noise moves the solution: its
+/// covariance (packed upper triangle) and bias (unknowns). Needs declared noise; square and robust. Written only with status ok.
+/// scratch: uncertainty_scratch. Cost: propagate_noise, and the rows of up to 32 instants. Never fails, fixed loops.
+template <class S>
+inline Latest<S> uncertainty(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, S* covariance, S* bias) noexcept {
+    Blueprint<S> plain = blueprint;
+    plain.ratio.used = false;
+    plain.deviation_limit = S(0);
+    plain.perturbation.rows = 0;
+    Progress then;
+    Latest<S> latest = detail::estimate_at(plain, memory, scratch, lumped, then);
+    if (!latest.current || latest.status != Status::ok) return latest;
+    if (!detail::propagate(plain, memory, then, scratch, lumped, covariance, bias)) latest.status = Status::singular;
+    if (detail::pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, std::numeric_limits<S>::infinity()};
+    return latest;
 }
 
 }  // namespace algest

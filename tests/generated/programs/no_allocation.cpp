@@ -77,6 +77,17 @@ void operator delete[](void*, size_t, std::align_val_t) noexcept { used("operato
 namespace {
 
 Class estimator;
+
+/// Calls uncertainty(), where the model declares noise.
+template <class C>
+auto uncertain(C& c, int) -> decltype(c.uncertainty().status) {
+    return c.uncertainty().status;
+}
+template <class C>
+algest::Status uncertain(C& c, long) {
+    return c.estimate().status;
+}
+
 constexpr int inputs = sizeof(Class::Sample) / sizeof(Scalar);
 int seen[4];
 unsigned state = 1;
@@ -118,6 +129,7 @@ int main(int argc, char**) {
             } else {
                 estimator.push(s);
                 if (k % 5 == 1) e = estimator.estimate();
+                if (k % 500 == 2) e.status = uncertain(estimator, 0);
             }
             forbidden = false;
             ++seen[static_cast<int>(e.status)];

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/noise_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace algest::generator {
+
+namespace {
+
+using exact::Rational;
+
+/// Every row has noise of its own, and the unknowns a value to start from.
+bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Diagnostics& diagnostics) {
+    const Position at = model.estimator.at;
+    for (const plan::Row& row : plan.rows) {
+        const auto noisy = [&](const plan::RowTerm& t) {
+            return std::any_of(plan.noise.begin(), plan.noise.end(), [&](const plan::NoiseChannel& c) { return c.signal == t.signal; });
+        };
+        if (std::any_of(row.terms.begin(), row.terms.end(), noisy)) continue;
+        diagnostics.error(model.path, at, "rows of equation '" + plan.equations[static_cast<std::size_t>(row.equation)].name + "' have no noise, and whitening divides by it",
+                          "declare noise = ... for a measured signal of it, or leave whiten out");
+        return false;
+    }
+    for (const plan::Lumped& u : plan.lumped) {
+        if (std::isfinite(u.initial)) continue;
+        diagnostics.error(model.path, at, "whitening starts from the initial values, and " + u.meaning + " has none", "declare initial = ... for every parameter");
+        return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<int>& window_operations, plan::Scalar scalar,
+                             TapeBuilder& tape) {
+    NoiseChannels out;
+    for (std::size_t s = 0; s < model.signals.size(); ++s) {
+        const auto& sigma = model.signals[s].noise;
+        const int input = input_of_signal[s];
+        if (input < 0 || !sigma || cln::zerop(*sigma)) continue;
+        // A mean over N samples has a deviation of sigma/sqrt(N), the halves of its ends aside.
+        const Rational size = model.decimate == 1 ? *sigma : *sigma * *exact::function_value("sqrt", Rational(1) / model.decimate);
+        for (std::size_t w = 0; w < window_operations.size(); ++w) {
+            if (tape.partial(window_operations[w], plan::Op::derivative, input) >= 0) return {{}, {}, model.signals[s].name};
+            for (const plan::Op reads : {plan::Op::input, plan::Op::previous}) {
+                const int partial = tape.partial(window_operations[w], reads, input);
+                if (partial < 0) continue;
+                const auto constant = tape.constant_value(partial);
+                const int lag = reads == plan::Op::previous && model.decimate == 1 ? 1 : 0;
+                plan::NoiseChannel channel{input, static_cast<int>(w), -1, lag, exact::nearest(constant ? *constant * size : size, scalar)};
+                if (!constant) {
+                    const auto known = std::find_if(out.partials.begin(), out.partials.end(), [&](const NoiseChannels::Partial& p) { return p.operation == partial; });
+                    channel.partial = static_cast<int>(known - out.partials.begin());
+                    if (known == out.partials.end()) out.partials.push_back({partial, static_cast<int>(w), input});
+                }
+                out.channels.push_back(channel);
+            }
+        }
+    }
+    return out;
+}
+
+bool noise_suffices(const model::Model& model, const std::string& through_a_filter, plan::Plan& plan, Diagnostics& diagnostics) {
+    const model::Estimator& e = model.estimator;
+    if (!through_a_filter.empty()) {
+        const std::string what = "the noise of '" + through_a_filter + "' goes through the parabola filter into a window: its uncertainty is not known";
+        if (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit) {
+            diagnostics.error(model.path, e.at, what, "leave out uncertainty, whiten and deviation_limit, or the noise of that signal");
+            return false;
+        }
+        plan.notes.push_back(what);
+    }
+    if (!plan.uncertain() && through_a_filter.empty() && (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit)) {
+        diagnostics.error(model.path, e.at, "the declared noise enters no row", "declare noise = ... for the signals that the equations measure");
+        return false;
+    }
+    if (plan.whiten && plan.rows.size() == plan.lumped.size()) {
+        plan.notes.push_back("whiten changes nothing: there are as many rows as unknowns");
+        plan.whiten = false;
+    }
+    if (plan.whiten && !whitening_is_possible(model, plan, diagnostics)) return false;
+    if (plan.uncertain() && plan.solve == algest::Solve::square && plan.deviation_limit == 0.0) {
+        plan.notes.push_back("no deviation_limit: where the rows are nearly singular noise may move an ok estimate far; deviation_limit = 0.1 makes such estimates singular");
+    }
+    return true;
+}
+
+}  // namespace algest::generator

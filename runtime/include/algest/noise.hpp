@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT-0
+// How the noise of the sensors enters the rows: through the partial derivatives of the window signals, then through the known weights.
+#pragma once
+#include <cstdint>
+
+#include "algest/rows.hpp"
+#include "algest/view.hpp"
+#include "algest/window.hpp"
+
+namespace algest {
+
+/// One way of a raw signal's noise into a window signal: its standard deviation times the partial derivative, which is constant and in
+/// the factor, or what ring `partial` holds. Raw sample k enters the window signal's sample k + lag.
+template <class S>
+struct NoiseChannel {
+    std::uint16_t input;     ///< which noisy raw signal
+    std::uint16_t signal;    ///< window signal
+    std::uint16_t partial;   ///< ring of the partial derivative; no_partial: constant
+    std::uint16_t lag;       ///< 0 or 1
+    S factor;
+};
+constexpr std::uint16_t no_partial = 0xFFFF;
+
+/// The declared noise: white, independent between signals and samples. inputs == 0: none is declared.
+template <class S>
+struct Noise {
+    int inputs;
+    View<NoiseChannel<S>> channels;
+};
+
+/// Writes the change of the rows [P|Q] (matrix, as evaluate_rows) when raw sample `sample` of the window at `at` is one standard deviation
+/// of `input` too large; sample may be -1 for what enters one sample late. Cost: channels of the input x functionals.
+template <class S>
+inline void noise_in_rows(const RowSet<S>& set, const Noise<S>& noise, const S* rings, WindowPosition at, int input, int sample, S* matrix) noexcept {
+    const int entries = set.rows * (set.unknowns + 1);
+    for (int i = 0; i < entries; ++i) matrix[i] = S(0);
+    for (const NoiseChannel<S>& channel : noise.channels) {
+        const int k = sample + channel.lag;
+        if (channel.input != input || k < 0 || k >= set.samples) continue;
+        const S size = channel.partial == no_partial ? channel.factor : channel.factor * window(rings, channel.partial, at)[k];
+        for (const Functional& f : set.functionals) {
+            if (f.table == no_table || f.signal != channel.signal) continue;
+            const S value = set.tables[static_cast<int>(f.table) * set.samples + k] * size;
+            for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
+                const Term<S>& term = set.terms[i];
+                matrix[term.row * (set.unknowns + 1) + term.column] += term.factor * value;
+            }
+        }
+    }
+}
+
+/// What row r of [P|Q] says at theta: its residual P theta - Q.
+template <class S>
+inline S residual(const S* row, const S* theta, int unknowns) noexcept {
+    S sum = -row[unknowns];
+    for (int c = 0; c < unknowns; ++c) sum += row[c] * theta[c];
+    return sum;
+}
+
+}  // namespace algest
