@@ -27,12 +27,14 @@ const Workplace& friction() {
     return w;
 }
 
-/// The variant with an error of `gap` noise floors, 0.001 of the signal each.
+/// The variant with a white error of `gap` noise floors, 0.001 of the signal each.
 Variant at(const Variant& v, double gap) {
     Variant out = v;
     out.score = {};
     out.score.error = {gap};
     out.score.floor = {1};
+    out.score.rows = 1000;
+    out.score.independent = {1000};
     out.score.nrmse = 0.001 * gap;
     return out;
 }
@@ -88,16 +90,35 @@ TEST_CASE("verdict: what comes down to 1.3 times the noise is named, and ambiguo
     CHECK(verdict(friction(), 1.4, {1.29}) == Verdict::named);   // most of it is left, at the noise
 }
 
-TEST_CASE("verdict: above the noise a name holds with a tenth left, or 60 percent below twice the noise without a shape") {
-    CHECK(verdict(friction(), 100, {9.9}) == Verdict::named);
-    CHECK(verdict(friction(), 100, {10.1}) == Verdict::unknown);
-    CHECK(verdict(noise_alone(), 100, {10.1}) == Verdict::unknown);   // beyond twice the noise
+TEST_CASE("verdict: above the noise a name holds below twice the noise, with 60 percent left and no shape") {
+    CHECK(verdict(friction(), 100, {2.01}) == Verdict::unknown);      // two percent left, and not noise
     CHECK(verdict(noise_alone(), 4, {1.99}) == Verdict::named);
     CHECK(verdict(noise_alone(), 4, {2.01}) == Verdict::unknown);
     CHECK(verdict(friction(), 4, {1.99}) == Verdict::unknown);        // what is left has a shape
     CHECK(verdict(noise_alone(), 3, {1.79}) == Verdict::named);
     CHECK(verdict(noise_alone(), 3, {1.81}) == Verdict::none);        // 60 percent left, noise
     CHECK(verdict(noise_alone(), 3, {1.81, true, false, 51}) == Verdict::unknown);
+}
+
+TEST_CASE("verdict: beyond twice the noise nothing added is none only where the error is as rough as a sensor's") {
+    const Workplace& w = noise_alone();
+    for (const double share : {0.71, 0.69}) {   // of the rows, that count as independent: 0.7 is the limit
+        for (const double gap : {1.99, 2.01}) {
+            Variant nominal = at(*w.nominal, gap);
+            nominal.score.independent = {share * nominal.score.rows};
+            Selection selection = selected(nominal);
+            selection.evidence.push_back({"effect", "e", "-c", 10, 0, 0, false, false, 1});
+            CHECK(lab::judge(*w.bench, nominal, selection) == (share < 0.7 && gap > 2 ? Verdict::unknown : Verdict::none));
+        }
+    }
+}
+
+TEST_CASE("verdict: a search that was cut short does not say none") {
+    const Workplace& w = noise_alone();
+    Selection selection = selected(at(*w.nominal, 1.5));
+    selection.cut_short = true;
+    CHECK(lab::judge(*w.bench, selection.best, selection) == Verdict::unknown);
+    CHECK(any_says(lab::doubts(*w.bench, selection.best, selection, Verdict::unknown), "stopped before every effect was tried"));
 }
 
 TEST_CASE("verdict: by rows 60 percent left will do, or 5 percent of what drives the equation") {
