@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // algest generate: writes estimators, or compares them with what is there.
+#include "generator/cost.hpp"
 #include "generator/generate.hpp"
 
 #include <filesystem>
@@ -24,7 +25,33 @@ using nlohmann::ordered_json;
 struct Planned {
     std::string model;
     plan::Plan plan;
+    ordered_json cost;   ///< of both engines, the chosen one first
 };
+
+const char* engine_name(const plan::Plan& plan) { return plan.moments ? "moments" : "fir"; }
+
+ordered_json cost_json(const plan::Plan& plan) {
+    const generator::Cost cost = generator::cost_of(plan);
+    return {{"engine", engine_name(plan)}, {"operations", cost.operations * (cost.push + cost.estimate)}, {"memory", cost.instance_bytes}, {"tables", cost.table_bytes}};
+}
+
+/// What the plan costs, and what the other engine would, unless the model cannot have that.
+ordered_json costs(const std::string& model, const plan::Plan& plan) {
+    ordered_json out = {cost_json(plan)};
+    Diagnostics said_before;
+    const auto other = generator::plan_from_model(model, {plan.scalar, plan.moments ? "fir" : "moments", false}, said_before);
+    if (other && other->moments.has_value() != plan.moments.has_value()) out.push_back(cost_json(*other));
+    return out;
+}
+
+std::string text(const ordered_json& costs) {
+    std::string out;
+    for (const ordered_json& c : costs) {
+        out += (out.empty() ? "engine " : "; ") + c["engine"].get<std::string>() + ": " + c["operations"].dump() + " operations a sample, " + c["memory"].dump() +
+               " bytes of memory, " + c["tables"].dump() + " of tables";
+    }
+    return out;
+}
 
 /// Plans every model; those that fail tell `outcome`. Two estimators of one name would share files: then there are none.
 std::vector<Planned> plan_all(const GenerateOptions& options, Outcome& outcome) {
@@ -43,9 +70,11 @@ std::vector<Planned> plan_all(const GenerateOptions& options, Outcome& outcome) 
                                   "a `name` of its own for each model");
                 names_differ = false;
             } else if (!options.check) {
-                for (const std::string& text : plan->notes) diagnostics.note(model, text);
+                for (const std::string& note : plan->notes) diagnostics.note(model, note);
             }
-            out.push_back({model, std::move(*plan)});
+            ordered_json cost = options.check ? ordered_json() : costs(model, *plan);
+            if (!options.check) diagnostics.note(model, text(cost));
+            out.push_back({model, std::move(*plan), std::move(cost)});
         }
         outcome.take(diagnostics);
     }
@@ -122,6 +151,7 @@ int generate(const GenerateOptions& options) {
         } else if (write(files, diagnostics)) {
             entry["written"] = ordered_json::array();
             for (const generator::EmittedFile& file : files) entry["written"].push_back(file.path);
+            entry["cost"] = planned.cost;
             done.push_back(std::move(entry));
         }
         outcome.take(diagnostics);

@@ -25,12 +25,6 @@ namespace {
 using exact::Rational;
 using plan::Plan;
 
-kernel::Coefficients coefficients(const std::vector<std::string>& texts) {
-    kernel::Coefficients out;
-    for (const std::string& t : texts) out.push_back(exact::from_text(t));
-    return out;
-}
-
 /// Lowest power first in the list; the printed polynomial has the highest first, as Polynomial orders it.
 Polynomial in_sigma(const std::vector<std::string>& kernel) {
     Polynomial out;
@@ -378,7 +372,7 @@ std::string derivation_json(const Plan& plan, bool weights) {
                 if (weights) {
                     const plan::Hold hold = t.signal < 0 ? plan::Hold::linear : plan.window_signals[static_cast<std::size_t>(t.signal)].hold;
                     Json list = Json::array();
-                    for (const double w : kernel::weights(coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar)) list.push_back(exact::hexadecimal(w));
+                    for (const double w : kernel::weights(kernel::coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar)) list.push_back(exact::hexadecimal(w));
                     term["weights"] = std::move(list);
                 }
                 terms.push_back(std::move(term));

@@ -94,6 +94,7 @@ struct Estimator {
     std::optional<Rational> omega_n;        ///< rad/s, of the ratio filter; empty: there is none
     Rational zeta = Rational(707) / 1000;   ///< as in 000
     std::string engine = "fir";
+    plan::Accumulators accumulators = plan::Accumulators::twofold;   ///< of single-precision moments
     plan::Quadrature quadrature = plan::Quadrature::exact;
 };
 
@@ -108,6 +109,7 @@ struct Model {
     Position window_at;
     int decimate = 1;                 ///< periods that one sample of a window is the mean over
     bool growing = false;
+    Position growing_at;
 
     /// Between samples of a window, s; needs a period.
     Rational window_period() const { return *period * decimate; }

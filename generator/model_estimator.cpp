@@ -113,9 +113,7 @@ void read_sampling(const toml::table& root, Reading& reading) {
     if (t->contains("window")) model.window_at = position(*t->get("window"));
     model.decimate = reading.file.whole(*t, "decimate", 1, largest_decimation).value_or(1);
     model.growing = reading.file.boolean(*t, "growing").value_or(false);
-    if (model.growing) {
-        reading.file.error(*t->get("growing"), "a growing window is not supported by this version", "leave it out: the window then slides from the start");
-    }
+    if (model.growing) model.growing_at = position(*t->get("growing"));
     if (model.period && model.window) check_window(reading);
 }
 
@@ -123,7 +121,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
     const toml::table* t = reading.file.subtable(root, "estimator");
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "quadrature", "forgetting", "condition_limit", "deviation_limit", "uncertainty", "whiten",
+    file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "accumulators", "quadrature", "forgetting", "condition_limit", "deviation_limit", "uncertainty", "whiten",
                           "ratio_filter"});
     Estimator& e = reading.model.estimator;
     e.given = true;
@@ -135,6 +133,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
                         {{"square", Solver::square}, {"robust", Solver::robust}, {"least_squares", Solver::least_squares},
                          {"elimination", Solver::elimination}}, e.solve);
     file.choose<std::string>(*t, "engine", {{"fir", "fir"}, {"moments", "moments"}}, e.engine);
+    file.choose<plan::Accumulators>(*t, "accumulators", {{"float", plan::Accumulators::twofold}, {"double", plan::Accumulators::float64}}, e.accumulators);
     file.choose<plan::Quadrature>(*t, "quadrature",
                                   {{"exact", plan::Quadrature::exact}, {"trapezoid", plan::Quadrature::trapezoid},
                                    {"simpson", plan::Quadrature::simpson}}, e.quadrature);

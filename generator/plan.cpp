@@ -11,6 +11,7 @@
 
 #include "generator/annihilator.hpp"
 #include "generator/dimension.hpp"
+#include "generator/engine.hpp"
 #include "generator/generate.hpp"
 #include "generator/initial_value.hpp"
 #include "generator/kernel.hpp"
@@ -56,7 +57,8 @@ public:
         solver();
         tables_and_rows(*weights);
         unknowns_and_parameters();
-        plan_.kept = kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
+        plan_.kept = plan_.moments ? 0 : kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
+        if (diagnostics_.failed()) return std::nullopt;
         if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
         if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
         return std::move(plan_);
@@ -99,8 +101,6 @@ private:
         plan_.decimate = model_.decimate;
         plan_.quadrature = model_.estimator.quadrature;
         if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\"");
-        const std::string engine = options_.engine.empty() ? model_.estimator.engine : options_.engine;
-        if (engine == "moments") plan_.notes.push_back("engine moments is not in this version: fir is used, which gives the same numbers");
     }
 
     void equations() {
@@ -256,7 +256,6 @@ private:
                    std::to_string(kind.p > 0 ? kind.p : kind.perturbation) + "_" + rule;
         const kernel::Coefficients& k = kernel_of(derivative, kind, orders(e));
         for (const Rational& c : k) out.kernel.push_back(exact::text(c));
-        if (options_.weights) out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
         plan_.tables.push_back(std::move(out));
         return static_cast<int>(plan_.tables.size()) - 1;
     }
@@ -278,7 +277,8 @@ private:
                 plan_.perturbation.push_back(row);
             }
         }
-        noise(tape);
+        plan_.moments = moments(model_, options_.engine, plan_, diagnostics_);
+        if (!plan_.moments) weights_and_noise(tape);
         plan_.signals = tape.finish();
     }
 
@@ -292,7 +292,11 @@ private:
         row.terms.insert(row.terms.end(), known.begin(), known.end());
     }
 
-    void noise(TapeBuilder& tape) {
+    /// What reads whole windows, weight by weight.
+    void weights_and_noise(TapeBuilder& tape) {
+        if (options_.weights) {
+            for (plan::Table& t : plan_.tables) t.weights = kernel::weights(kernel::coefficients(t.kernel), plan_.intervals, t.hold, plan_.quadrature, plan_.scalar);
+        }
         const model::Estimator& e = model_.estimator;
         if (e.solve == model::Solver::least_squares || !e.uncertainty.value_or(true)) return;
         noise_ = noise_channels(model_, input_of_signal_, window_operations_, plan_.scalar, tape);
@@ -433,6 +437,13 @@ private:
         const auto finite = [](const std::vector<double>& numbers) { return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }); };
         std::vector<double> numbers = {plan_.rate, plan_.condition_limit, plan_.deviation_limit};
         for (const plan::NoiseChannel& c : plan_.noise) numbers.push_back(c.factor);
+        if (plan_.moments) {
+            for (const plan::MomentTable& t : plan_.moments->tables) {
+                numbers.insert(numbers.end(), t.coefficients.begin(), t.coefficients.end());
+                numbers.insert(numbers.end(), t.growing.begin(), t.growing.end());
+                numbers.insert(numbers.end(), {t.oldest, t.newest, t.of_one});
+            }
+        }
         for (const plan::Row& row : plan_.perturbation) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Row& row : plan_.rows) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Parameter& p : plan_.parameters) numbers.push_back(p.initial);

@@ -14,6 +14,7 @@
 #include "generator/blueprint.hpp"
 #include "generator/plan.hpp"
 #include "generator/tape.hpp"
+#include "lab/host_moments.hpp"
 
 namespace algest::lab {
 
@@ -26,9 +27,12 @@ public:
         : plan_(&plan),
           blueprint_(plan::make_blueprint<S>(plan)),
           delayed_(plan.delayed()),
-          rings_(size(ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
+          moments_(host_moments<S>(plan)),
+          rings_(size(plan.moments ? moment_ring(blueprint_.signals, blueprint_.samples)
+                                   : ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
           sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
-          published_(size(published_scalars(blueprint_.solve, blueprint_.unknowns))),
+          published_(size(plan.moments ? published_row_scalars(blueprint_.solve, blueprint_.rows.rows, blueprint_.unknowns, blueprint_.perturbation.rows)
+                                       : published_scalars(blueprint_.solve, blueprint_.unknowns))),
           whitened_at_(blueprint_.whiten_at),
           ratio_(size(ratio_scalars(blueprint_.ratio.used, blueprint_.unknowns))),
           boxcar_(size(boxcar_scalars(blueprint_.signals))),
@@ -60,6 +64,7 @@ public:
     /// Forgets everything; the parameters are their initial values again.
     void reset() {
         algest::reset(blueprint_.view(), memory());
+        reset_moments(moments_);
         run_ = 0;
         block_ = {};
         status_ = Status::filling;
@@ -90,7 +95,7 @@ public:
             if (!ends) return algest::prime(memory());
             sample = means_.data();
         }
-        algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
+        absorb(sample);
     }
 
     /// Solves with the windows as they are now. Cost: that of the runtime's estimate, and the parameter map.
@@ -168,9 +173,14 @@ private:
         for (std::size_t i = 0; i < previous_.size(); ++i) previous_[i] = inputs[i];
     }
 
+    /// Into the windows of the plan's engine; nullptr: a refused sample.
+    void absorb(const S* sample) {
+        if (!push_moments(moments_, blueprint_.view(), memory(), sample, push_scratch_.data())) algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
+    }
+
     /// Windows, filters and the memory of the sample before start anew.
     void refuse() {
-        algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
+        absorb(nullptr);
         run_ = 0;
         block_ = {};
     }
@@ -188,6 +198,7 @@ private:
     bool delayed_;
     int run_ = 0;  ///< delayed plans: samples accepted since the last restart, at most 2
     Progress progress_{};
+    HostMoments<S> moments_;
     std::vector<S> rings_;
     std::vector<S> sums_;
     std::vector<S> published_;

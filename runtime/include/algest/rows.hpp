@@ -39,21 +39,33 @@ struct RowSet {
     View<Term<S>> terms;
 };
 
+/// The rows before any functional is added.
+template <class S>
+inline void clear_rows(const RowSet<S>& set, S* matrix) noexcept {
+    const int entries = set.rows * (set.unknowns + 1);
+    for (int i = 0; i < entries; ++i) matrix[i] = S(0);
+}
+
+/// Adds the value of one functional to the entries that it enters.
+template <class S>
+inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S* matrix) noexcept {
+    for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
+        const Term<S>& term = set.terms[i];
+        matrix[term.row * (set.unknowns + 1) + term.column] += term.factor * value;
+    }
+}
+
 /// Evaluates all rows on the windows: matrix[row * (unknowns + 1) + column], the known side in the last column.
 /// Cost: functionals * samples multiply-adds. Never fails; a value that is not finite passes through.
 template <class S>
 inline void evaluate_rows(const RowSet<S>& set, const S* rings, WindowPosition at, S* matrix) noexcept {
-    const int entries = set.rows * (set.unknowns + 1);
-    for (int i = 0; i < entries; ++i) matrix[i] = S(0);
+    clear_rows(set, matrix);
     for (const Functional& f : set.functionals) {
         const S value = f.table == no_table
                             ? S(1)
                             : dot(set.tables.data + static_cast<long>(f.table) * set.samples,
                                   window(rings, f.signal, at), set.samples);
-        for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
-            const Term<S>& term = set.terms[i];
-            matrix[term.row * (set.unknowns + 1) + term.column] += term.factor * value;
-        }
+        add_functional(set, f, value, matrix);
     }
 }
 
