@@ -9,6 +9,7 @@
 #include "generator/annihilator.hpp"
 #include "generator/kernel.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/held_parameters.hpp"
 #include "lab/noise.hpp"
 #include "lab/polynomial_value.hpp"
 #include "lab/roles.hpp"
@@ -111,8 +112,7 @@ bool measured(const Bench& bench, const equation::OperatorForm& form) {
 
 /// The form of an equation that every signal of it is measured for, on rows enough for two windows.
 std::optional<equation::OperatorForm> measured_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
-    Diagnostics quiet;
-    auto form = equation::operator_form(model, model.equations[equation], quiet);
+    auto form = form_with_held_parameters(model, equation);
     if (!form || form->terms.empty() || rows.size() < 2 * static_cast<std::size_t>(intervals) + 4) return std::nullopt;
     if (!measured(bench, *form)) return std::nullopt;
     return form;
@@ -127,8 +127,7 @@ std::vector<int> weak_intervals(const Rows& rows) {
 }
 
 bool has_weak_form(const model::Model& model, const Bench& bench, std::size_t equation) {
-    Diagnostics quiet;
-    const auto form = equation::operator_form(model, model.equations[equation], quiet);
+    const auto form = form_with_held_parameters(model, equation);
     return form && measured(bench, *form);
 }
 
