@@ -246,27 +246,43 @@ private:
         Eigen::MatrixXd slopes(left_.size(), static_cast<Eigen::Index>(added.size()));
         std::vector<double> sizes;
         for (std::size_t k = 0; k < added.size(); ++k) sizes.push_back(probe_of(*v, at, *added[k], c.binding, slopes.col(static_cast<Eigen::Index>(k))));
-        Eigen::VectorXd there = left_;   // an effect of a scanned number alone moves by as much as it does
-        if (added.empty()) {
-            slopes.resize(left_.size(), 1);
-            slopes.col(0) = change_at(*v, at);
-            there += outside(slopes);
-        }
+        if (added.empty()) return weigh_scan_alone(c, *v, at);
         const double whole = slopes.squaredNorm();
         slopes = outside(slopes);
         if (!(slopes.squaredNorm() > least_of_its_own * whole)) return;   // what the parameters do already
-        if (!added.empty()) {
-            const Eigen::VectorXd move = slopes.colPivHouseholderQr().solve(-left_);
-            for (std::size_t k = 0; k < added.size(); ++k) {
-                double& value = at.parameters[static_cast<std::size_t>(v->model.parameter_index(added[k]->name))];
-                value += move[static_cast<Eigen::Index>(k)] * sizes[k];
-                if (added[k]->min && value < *added[k]->min) return;
-            }
-            there += slopes * move;
+        const Eigen::VectorXd move = slopes.colPivHouseholderQr().solve(-left_);
+        for (std::size_t k = 0; k < added.size(); ++k) {
+            double& value = at.parameters[static_cast<std::size_t>(v->model.parameter_index(added[k]->name))];
+            value += move[static_cast<Eigen::Index>(k)] * sizes[k];
+            if (added[k]->min && value < *added[k]->min) return;
         }
-        c.share = 1 - there.squaredNorm() / left_.squaredNorm();
+        c.share = 1 - (left_ + slopes * move).squaredNorm() / left_.squaredNorm();
         if (c.strength > 0) return;
         c.start = at.parameters;
+    }
+
+    /// An effect of a scanned number alone: what it takes where it is, or would take as far along as suits it, since the model's parameters give
+    /// way by more than their slope tells.
+    void weigh_scan_alone(Candidate& c, const Variant& v, FitStart at) const {
+        const Eigen::VectorXd whole = change_at(v, at);
+        const Eigen::VectorXd change = outside(whole);
+        if (!(change.squaredNorm() > least_of_its_own * whole.squaredNorm())) return;
+        const double here = 1 - (left_ + change).squaredNorm() / left_.squaredNorm();
+        const double further = std::max(-left_.dot(change) / change.squaredNorm(), 0.0);
+        const double there = 1 - (left_ + further * change).squaredNorm() / left_.squaredNorm();
+        c.share = std::max(here, there);
+        const EffectScan& scan = c.binding.effect->scans[0];
+        const int p = v.model.parameter_index(scanned_name(v.amendments.back()));
+        if (there > here && scan.fitted && p >= 0 && !c.scans.empty()) {
+            c.scan = std::clamp(further * c.scan, c.scans.front(), c.scans.back());
+            at.parameters[static_cast<std::size_t>(p)] = c.scan;
+        }
+        c.start = at.parameters;
+    }
+
+    static std::string scanned_name(const Amendment& a) {
+        const auto found = std::find_if(a.names.begin(), a.names.end(), [](const NewName& n) { return n.scanned; });
+        return found == a.names.end() ? "" : found->name;
     }
 
     Eigen::MatrixXd outside(const Eigen::MatrixXd& x) const { return x - basis_ * (basis_.transpose() * x); }
