@@ -88,10 +88,7 @@ namespace detail {
 template <class S, class A>
 inline void powers_of(S u, int degree, A* powers) noexcept {
     assign(powers[0], S(1));
-    for (int j = 1; j <= degree; ++j) {
-        assign(powers[j], S(0));
-        add_product(powers[j], powers[j - 1], u);
-    }
+    for (int j = 1; j <= degree; ++j) powers[j] = times(powers[j - 1], u);
 }
 
 /// Adds a sample at coordinate u of a frame; sign -1 takes it away.
@@ -101,16 +98,31 @@ inline void add_to_frame(const MomentSet<S, A>& set, S u, S sign, const S* sampl
     for (int s = 0; s < set.degrees.size; ++s) {
         const S x = sign * (sample[s] - references[s]);
         A* const moments = accumulators + s * (set.degree + 1);
-        for (int j = 0; j <= set.degrees[s]; ++j) add_product(moments[j], powers[j], x);
+        const int top = set.degrees[s];   // a byte, which the stores below could alias
+#pragma GCC unroll 4
+        for (int j = 0; j <= top; ++j) add_product(moments[j], powers[j], x);
     }
 }
 
 /// Moments of a frame -> of coordinates larger by `shift`: a triangular matrix of binomials, factor by factor.
 template <class S, class A>
 inline void shift_moments(int degree, S shift, A* moments) noexcept {
-    for (int pass = 1; pass <= degree; ++pass) {
-        for (int j = degree; j >= pass; --j) add_product(moments[j], moments[j - 1], shift);
+    int pass = 1;
+    for (; pass < degree; pass += 2) {   // two passes at once: what the first makes of a moment is still at hand for the second
+        A above = moments[degree];
+        A here = moments[degree - 1];
+        add_product(above, here, shift);
+        for (int j = degree; j > pass; --j) {
+            const A below = moments[j - 2];
+            add_product(here, below, shift);
+            add_product(above, here, shift);
+            moments[j] = above;
+            above = here;
+            here = below;
+        }
+        moments[pass] = above;
     }
+    if (pass == degree) add_product(moments[degree], moments[degree - 1], shift);
 }
 
 }  // namespace detail
@@ -153,8 +165,9 @@ inline void evaluate_moment_rows(const MomentSet<S, A>& set, const RowSet<S>& ro
     const int block = moment_block<A>(intervals);
     const int since = static_cast<int>(memory.progress->position) - intervals;   // the start of the frame that is served
     const int full = since < 0 ? since + moment_frames<A> * block : since;
-    const int frame = full / block;
-    const int offset = full % block;
+    int frame = 0;
+    int offset = full;
+    for (; offset >= block; offset -= block) ++frame;   // a few subtractions; a division takes longer
     const int count = set.degree + 1;
     const S* const references = memory.references + frame * rows.signals;
     const A* const served = memory.accumulators + frame * rows.signals * count;

@@ -55,17 +55,46 @@ inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S
     }
 }
 
+/// Dot products that are evaluated at once: more would not fit into sixteen vector registers.
+constexpr int most_dots = 3;
+
+/// Functionals from `first` on, at most most_dots, that read the same window.
+template <class S>
+inline int of_one_window(const RowSet<S>& set, int first) noexcept {
+    const auto reads = [&](int f) { return f < set.functionals.size && set.functionals[f].table != no_table && set.functionals[f].signal == set.functionals[first].signal; };
+    int count = 1;
+    while (count < most_dots && reads(first + count)) ++count;
+    return count;
+}
+
+/// Adds `count` functionals of one window, from `first` on.
+template <int count, class S>
+inline void add_dots(const RowSet<S>& set, int first, const S* samples, S* matrix) noexcept {
+    const S* weights[count];
+    S values[count];
+    for (int t = 0; t < count; ++t) weights[t] = set.tables.data + static_cast<long>(set.functionals[first + t].table) * set.samples;
+    dots<count>(weights, samples, set.samples, values);
+    for (int t = 0; t < count; ++t) add_functional(set, set.functionals[first + t], values[t], matrix);
+}
+
 /// Evaluates all rows on the windows: matrix[row * (unknowns + 1) + column], the known side in the last column.
 /// Cost: functionals * samples multiply-adds. Never fails; a value that is not finite passes through.
 template <class S>
 inline void evaluate_rows(const RowSet<S>& set, const S* rings, WindowPosition at, S* matrix) noexcept {
     clear_rows(set, matrix);
-    for (const Functional& f : set.functionals) {
-        const S value = f.table == no_table
-                            ? S(1)
-                            : dot(set.tables.data + static_cast<long>(f.table) * set.samples,
-                                  window(rings, f.signal, at), set.samples);
-        add_functional(set, f, value, matrix);
+    for (int f = 0; f < set.functionals.size;) {
+        const Functional& first = set.functionals[f];
+        if (first.table == no_table) {
+            add_functional(set, first, S(1), matrix);
+            ++f;
+            continue;
+        }
+        const S* const samples = window(rings, first.signal, at);
+        const int count = of_one_window(set, f);
+        if (count == 3) add_dots<3>(set, f, samples, matrix);
+        else if (count == 2) add_dots<2>(set, f, samples, matrix);
+        else add_dots<1>(set, f, samples, matrix);
+        f += count;
     }
 }
 

@@ -38,6 +38,17 @@ inline void add_product(Twofold<S>& sum, Twofold<S> a, Twofold<S> b) noexcept {
     sum.low = std::fma(a.high, b.low, sum.low);
 }
 
+/// a b, as the type of a rounds it.
+template <class S>
+inline double times(double a, S b) noexcept {
+    return a * static_cast<double>(b);
+}
+template <class S>
+inline Twofold<S> times(Twofold<S> a, S b) noexcept {
+    const S product = a.high * b;
+    return {product, std::fma(a.low, b, std::fma(a.high, b, -product))};
+}
+
 /// The nearest scalar, or next to it.
 template <class S>
 inline S rounded(double x) noexcept {
