@@ -20,8 +20,6 @@ constexpr double largest_excursion = 1e6;      ///< times the scale: diverged
 constexpr int most_steps_in_a_span = 20000;    ///< stiffer than that is a diverged run too,
 constexpr std::size_t most_steps_a_sample = 30;    ///< and so is more than this on average
 
-constexpr double layer_width = 2e-2;           ///< half of it, in typical sizes of its argument: the ripple of a phase current
-
 /// Where a relay stands.
 enum class Mode { negative, holding, positive };
 
@@ -246,7 +244,7 @@ private:
                 evaluate();
                 size = std::max(size, std::abs(results_[static_cast<std::size_t>(l.argument)]));
             }
-            inputs_[static_cast<std::size_t>(l.width)] = layer_width * (size > 0 ? size : 1.0);
+            inputs_[static_cast<std::size_t>(l.width)] = options_.layer_width * (size > 0 ? size : 1.0);
         }
     }
 

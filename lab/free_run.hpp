@@ -32,12 +32,18 @@ struct Effort {
     bool used_up() const { return spent >= limit; }
 };
 
+/// Half the width over which a sgn() of several signals rises, in typical sizes of its argument: what the ripple of a phase current blurs,
+/// and what an ideal switch comes near to, at three times the cost.
+constexpr double blurred_layer = 2e-2;
+constexpr double thin_layer = 5e-3;
+
 struct RunOptions {
     double tolerance = 1e-8;                      ///< local, relative to the scale of each state
     std::vector<double> scale;                    ///< by state entry: typical size; a run beyond 1e6 times it has diverged
     std::size_t first = 0;                        ///< sample at which the run starts
     std::size_t end = 0;                          ///< sample before which it ends; 0: where the drive does
     std::size_t stride = 1;                       ///< every how many samples the run is kept; above 1 for systems that nothing drives
+    double layer_width = blurred_layer;
     Effort* effort = nullptr;                     ///< that every run adds its own to
 };
 

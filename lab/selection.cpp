@@ -132,6 +132,15 @@ Variant sharpened(Workbench& bench, Variant best, const Variant& nominal, const 
     return best;
 }
 
+/// With thin layers, where those explain more: how sharply the machine switches is not in any model.
+Variant sharply_switched(const Workbench& bench, Variant best) {
+    if (best.bench.system.layers.empty() || bench.yardstick() != Yardstick::free_run || best.score.gap() <= at_the_floor) return best;
+    Variant v = best;
+    v.bench.options.layer_width = thin_layer;
+    bench.fit_and_score(v, best.fit.parameters, best.fit.initial);
+    return v.score.nrmse < best.score.nrmse ? v : best;
+}
+
 /// Without every effect whose absence is not noticed.
 Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
     for (bool changed = true; changed && best.amendments.size() > 1;) {
@@ -224,7 +233,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
                 out.evidence[row[k].back()].rival = true;
             }
         }
-        out.best = sharpened(bench, top, nominal, effects);
+        out.best = sharply_switched(bench, sharpened(bench, top, nominal, effects));
         beside = std::move(next);
         beside[0].variant = out.best;
         if (out.best.score.gap() <= at_the_floor || bench.used_up()) break;
