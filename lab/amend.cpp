@@ -98,6 +98,18 @@ bool is_word(const std::string& text) {
     return std::all_of(text.begin(), text.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
 }
 
+/// A word, or the call of a function: nothing beside it binds tighter.
+bool stands_alone(const std::string& text) {
+    const std::size_t open = text.find('(');
+    if (open == std::string::npos || open == 0 || !is_word(text.substr(0, open))) return is_word(text);
+    int depth = 0;
+    for (std::size_t at = open; at < text.size(); ++at) {
+        if (text[at] == '(') ++depth;
+        else if (text[at] == ')' && --depth == 0) return at + 1 == text.size();
+    }
+    return false;
+}
+
 /// Edits of one text, collected by the positions that it has before them.
 class Edits {
 public:
@@ -125,7 +137,7 @@ public:
         }
         const std::string derivative = s.derivative.empty() && is_word(s.by) ? "der(" + s.by + ")" : s.derivative;
         if (derivative.empty()) return;
-        for (const Stretch& at : places.derivatives) replace(e, at, filled(derivative, {{"derivative", e.ode.substr(at.begin, at.end - at.begin)}}));
+        for (const Stretch& at : places.derivatives) replace(e, at, filled(derivative, {{"derivative", s.what[0] == '(' ? in_parentheses(e.ode.substr(at.begin, at.end - at.begin)) : e.ode.substr(at.begin, at.end - at.begin)}}));
     }
 
     /// An entry of a table, behind the last one that stands on a line of its own; else a table of its own at the end.
@@ -196,10 +208,10 @@ private:
 
     void insert(std::size_t at, std::string text) { splices_.push_back({at, at, std::move(text)}); }
 
-    /// In parentheses, unless it is a word or stands in parentheses already.
+    /// In parentheses, unless it stands alone or in parentheses already.
     void replace(const model::Equation& e, const Stretch& at, const std::string& by) {
         const bool enclosed = at.begin > 0 && e.ode[at.begin - 1] == '(' && at.end < e.ode.size() && e.ode[at.end] == ')';
-        splices_.push_back({offset_of(text_, e.place(static_cast<int>(at.begin))), offset_of(text_, e.place(static_cast<int>(at.end))), enclosed || is_word(by) ? by : in_parentheses(by)});
+        splices_.push_back({offset_of(text_, e.place(static_cast<int>(at.begin))), offset_of(text_, e.place(static_cast<int>(at.end))), enclosed || stands_alone(by) ? by : in_parentheses(by)});
     }
 
     /// Behind the last line of the last [[equation]].

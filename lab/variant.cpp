@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lab/largest_size.hpp"
 #include "lab/noise.hpp"
 #include "lab/weak_form.hpp"
 
@@ -16,6 +17,7 @@ constexpr double fit_share = 0.7;               ///< of the training rows are fi
 constexpr std::size_t least_train = 100;        ///< rows
 constexpr std::size_t least_test = 10;
 constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
+constexpr double finest_part = 1e-4;
 constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
 constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
@@ -40,6 +42,19 @@ bool is_kinematic(const model::Model& model, const model::Equation& e) {
     const auto is_rate = [](const formula::Formula& f) { return f->kind == formula::Kind::call && f->name == "der" && f->arguments.size() == 1; };
     const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
     return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
+}
+
+/// Of two signals that an amendment bends the difference of, how small that is beside them: so much finer the run has to be.
+double smallest_part(const std::vector<Amendment>& amendments, const model::Model& model, const Bench& bench) {
+    double out = 1;
+    for (const Amendment& a : amendments) {
+        for (const Substitution& s : a.substitutions) {
+            if (s.what[0] != '(') continue;
+            const std::string first = s.what.substr(1, s.what.find('-') - 1);
+            out = std::min(out, largest_size(s.what, model, bench) / largest_size(first, model, bench));
+        }
+    }
+    return std::max(out, finest_part);
 }
 
 int row_intervals(const Rows& rows) {
@@ -110,7 +125,7 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     drop_idle_kinematics(*model);
     auto ready = bench(*model, recording_, said);
     if (!ready) return std::nullopt;
-    ready->options.tolerance = search_tolerance;
+    ready->options.tolerance = search_tolerance * smallest_part(amendments, *model, *ready);
     ready->options.effort = &effort_;
     if (ready->system.driven.empty() && ready->system.laws.empty()) ready->options.stride = std::max<std::size_t>(1, parts_.train.size() / rows_of_an_undriven_run);
     return Variant{text, std::move(amendments), std::move(*model), whole, std::move(*ready), {}, {}};
