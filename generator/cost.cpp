@@ -2,6 +2,7 @@
 #include "generator/cost.hpp"
 
 #include "algest/boxcar.hpp"
+#include "algest/delay_line.hpp"
 #include "algest/growing_moments.hpp"
 #include "generator/blueprint.hpp"
 
@@ -38,6 +39,10 @@ int instance_bytes(const Plan& plan) {
         scalars += static_cast<int>(plan.inputs.size());
         for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
         bytes += 8;
+    }
+    if (!plan.past.empty()) {
+        scalars += static_cast<int>(plan.delayed_inputs().size()) * plan.delay_length();
+        bytes += static_cast<int>(sizeof(DelayProgress));
     }
     bytes += scalars * scalar_bytes(plan);
     const int alignment = plan.moments && !twofold(plan) ? 8 : scalar_bytes(plan);
