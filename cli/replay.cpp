@@ -25,8 +25,28 @@ ordered_json number_or_null(std::optional<double> value) {
     return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
 }
 
+ordered_json candidates_json(const std::vector<lab::EliminationCandidate>& candidates) {
+    ordered_json out = ordered_json::array();
+    for (const lab::EliminationCandidate& c : candidates) {
+        ordered_json values = ordered_json::object();
+        for (const auto& value : c.values) values[value.name] = number_or_null(value.value);
+        out.push_back({{"equations", c.equations}, {"values", std::move(values)}, {"error", number_or_null(c.error)}, {"verdict", lab::in_words(c.verdict)}});
+    }
+    return out;
+}
+
+std::string candidates_text(const std::vector<lab::EliminationCandidate>& candidates) {
+    std::string out;
+    for (const lab::EliminationCandidate& c : candidates) {
+        std::string values;
+        for (const auto& value : c.values) values += fmt::format("{} = {:.6g}, ", value.name, value.value);
+        out += fmt::format("  {}: {}squared error {:.5g}: {}\n", c.equations, values, c.error, lab::in_words(c.verdict));
+    }
+    return out.empty() ? out : "\ncandidates:\n" + out;
+}
+
 ordered_json summary_json(const ReplayOptions& options, const plan::Plan& plan, const lab::ReplaySummary& summary,
-                          std::size_t samples) {
+                          const lab::Replay& replay) {
     ordered_json parameters = ordered_json::array();
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
         parameters.push_back({{"name", plan.parameters[p].name},
@@ -37,14 +57,17 @@ ordered_json summary_json(const ReplayOptions& options, const plan::Plan& plan, 
     }
     ordered_json status = ordered_json::object();
     for (std::size_t s = 0; s < summary.count.size(); ++s) status[name(static_cast<Status>(s))] = summary.count[s];
-    return {{"model", options.model},
+    ordered_json out = {{"model", options.model},
             {"recording", options.recording},
-            {"samples", samples},
+            {"samples", replay.samples()},
             {"period_s", plan.period},
             {"parameters", std::move(parameters)},
             {"status", std::move(status)},
             {"condition",
              {{"median", number_or_null(summary.condition_median)}, {"last", number_or_null(summary.condition_last)}}}};
+    if (plan.steady) out["operating_points"] = replay.points.count();
+    if (plan.elimination) out["candidates"] = candidates_json(replay.candidates);
+    return out;
 }
 
 std::string number_text(std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : "-"; }
@@ -65,7 +88,8 @@ std::string summary_text(const plan::Plan& plan, const lab::Replay& replay, cons
     }
     out += fmt::format("\ncondition: median {}, last {}\n", number_text(summary.condition_median),
                        number_text(summary.condition_last));
-    return out;
+    if (plan.steady) out += fmt::format("{} operating points\n", replay.points.count());
+    return out + candidates_text(replay.candidates);
 }
 
 }  // namespace
@@ -104,8 +128,10 @@ int replay(const ReplayOptions& options) {
     if (!options.output.empty()) note("wrote " + options.output);
 
     const lab::ReplaySummary summary = lab::summarise(*replay);
+    const bool answered = summary.count[static_cast<std::size_t>(Status::ok)] > 0;
+    if (const auto missing = lab::what_is_missing(*plan, replay->points, answered)) note(*missing);
     if (options.json) {
-        print_json(summary_json(options, *plan, summary, replay->samples()));
+        print_json(summary_json(options, *plan, summary, *replay));
     } else {
         print(summary_text(*plan, *replay, summary));
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algest/estimator.hpp"
+#include "generator/elimination_data.hpp"
 #include "generator/plan.hpp"
 
 namespace algest::plan {
@@ -71,6 +72,7 @@ struct BlueprintData {
     std::vector<algest::NoiseChannel<S>> noise;
     std::vector<S> whiten_at;
     algest::LowPass<S> ratio;
+    EliminationData<S> elimination = {};
 
     /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
     algest::Blueprint<S> view() const {
@@ -84,7 +86,8 @@ struct BlueprintData {
                 deviation_limit,
                 {whiten_at.data(), static_cast<int>(whiten_at.size())},
                 ratio,
-                row_set(perturbation)};
+                row_set(perturbation),
+                elimination.view()};
     }
 
 private:
@@ -133,6 +136,7 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
     if (plan.whiten) {
         for (const Lumped& u : plan.lumped) data.whiten_at.push_back(static_cast<S>(u.initial));
     }
+    data.elimination = make_elimination<S>(plan.elimination);
     if (plan.ratio) {
         const auto s = [](double x) { return static_cast<S>(x); };
         const std::vector<double>& t = plan.ratio->transition;

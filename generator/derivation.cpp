@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "generator/annihilator.hpp"
+#include "generator/elimination_text.hpp"
 #include "generator/exact.hpp"
 #include "generator/formula.hpp"
 #include "generator/generate.hpp"
@@ -112,6 +113,7 @@ std::string solve_text(const Plan& plan) {
                                      exact::decimal(exact::from_text(plan.ratio->zeta))
                                : "");
         case Solve::least_squares: return plan.keep == 1.0 ? "least squares over all rows since reset" : "least squares over all rows since reset, with forgetting";
+        case Solve::elimination: return std::string("least squares over all rows since reset under polynomial constraints, by elimination") + (plan.keep == 1.0 ? "" : ", with forgetting");
     }
     return "?";
 }
@@ -128,7 +130,7 @@ std::string annihilator_text(const plan::Equation& e) {
     return "Pi = d^" + order + "/ds^" + order + s;
 }
 
-Rational window(const Plan& plan) { return exact::from_text(plan.period_text) * plan.decimate * plan.intervals; }
+Rational window(const Plan& plan) { return plan.steady ? exact::from_text(plan.period_text) * plan.steady->block : exact::from_text(plan.period_text) * plan.decimate * plan.intervals; }
 
 Data common(const Plan& plan) {
     Data d;
@@ -302,6 +304,16 @@ std::string derivation_text(const Plan& plan) {
     d.set("noise", listed(noise));
     d.set("uncertain", plan.uncertain());
     d.set("kernels", kernels_data(plan));
+    DataList stages;
+    for (const std::string& text : elimination_stages(plan)) {
+        Data stage;
+        stage.set("stage", text);
+        stages.push_back(stage);
+    }
+    d.set("stages", listed(stages));
+    d.set("eliminates", plan.elimination.has_value());
+    d.set("steady", plan.steady.has_value());
+    d.set("block", std::to_string(plan.steady ? plan.steady->block : 0));
     return render("report/derivation.md.mustache", d);
 }
 

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "algest/boxcar.hpp"
+#include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
+#include "generator/elimination_text.hpp"
 #include "generator/exact.hpp"
 #include "generator/generate.hpp"
 #include "generator/plan_hash.hpp"
@@ -39,6 +41,7 @@ std::string solve_name(const Plan& plan) {
         case Solve::square: return "square";
         case Solve::robust: return "robust";
         case Solve::least_squares: return "least_squares";
+        case Solve::elimination: return "elimination";
     }
     return "?";
 }
@@ -53,6 +56,13 @@ std::string quadrature_name(const Plan& plan) {
 }
 
 std::string unit_text(const std::string& unit) { return unit.empty() ? "unit not declared" : "[" + unit + "]"; }
+
+/// True where an operation's time is libm's to say.
+bool uses_libm(const plan::Tape& tape) {
+    return std::any_of(tape.operations.begin(), tape.operations.end(), [](const plan::Operation& o) {
+        return o.op == Op::exp || o.op == Op::log || o.op == Op::sin || o.op == Op::cos || o.op == Op::tan || o.op == Op::pow;
+    });
+}
 
 /// A tape as C++: one constant per operation that computes something, inputs by their names.
 class PrintedTape {
@@ -76,7 +86,6 @@ public:
             line.set("number", std::to_string(k));
             line.set("expression", expression(o));
             lines_.push_back(line);
-            uses_libm_ = uses_libm_ || o.op == Op::exp || o.op == Op::log || o.op == Op::sin || o.op == Op::cos || o.op == Op::tan || o.op == Op::pow;
             texts_.push_back(prefix_ + std::to_string(k));
         }
         for (const int r : tape.results) results_.push_back(texts_[static_cast<std::size_t>(r)]);
@@ -84,8 +93,6 @@ public:
 
     Data lines() const { return listed(lines_); }
     const std::vector<std::string>& results() const { return results_; }
-    bool uses_libm() const { return uses_libm_; }
-
 private:
     std::string expression(const plan::Operation& o) const {
         const std::string a = o.a < 0 ? "" : texts_[static_cast<std::size_t>(o.a)];
@@ -119,7 +126,6 @@ private:
     std::vector<std::string> texts_;
     std::vector<std::string> results_;
     DataList lines_;
-    bool uses_libm_ = false;
 };
 
 /// Scalars and bytes of one instance, as the class lays them out (estimator.hpp.mustache).
@@ -135,6 +141,10 @@ int instance_bytes(const Plan& plan) {
     if (plan.decimate > 1) {
         scalars += boxcar_scalars(signals);
         bytes += static_cast<int>(sizeof(BoxcarProgress));
+    }
+    if (plan.steady) {
+        scalars += steady_scalars(static_cast<int>(plan.steady->averaged.size()));
+        bytes += static_cast<int>(sizeof(SteadyProgress)) + 8;
     }
     if (plan.delayed()) {
         scalars += static_cast<int>(plan.inputs.size());
@@ -165,7 +175,8 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("window_signals", std::to_string(plan.window_signals.size()));
     d.set("kept", std::to_string(plan.kept));
     d.set("perturbation_rows", std::to_string(plan.perturbation.size()));
-    d.set("lumped_count", std::to_string(plan.lumped.size() + plan.perturbation.size()));
+    d.set("lumped_count", std::to_string(std::max(plan.lumped.size() + plan.perturbation.size(), plan.parameters.size())));
+    set_elimination(plan, d);
     d.set("most_rows", std::to_string(std::max(plan.rows.size(), plan.perturbation.size())));
     d.set("decimate", std::to_string(plan.decimate));
     d.set("decimated", plan.decimate > 1);
@@ -216,6 +227,29 @@ void set_cost(const Plan& plan, Data& d) {
     d.set("first_ok_s", exact::decimal(exact::from_text(plan.period_text) * (first_ok - 1)));
 }
 
+/// Operating points: what is averaged, and how steady it has to be.
+void set_steady(const Plan& plan, Data& d) {
+    d.set("steady", plan.steady.has_value());
+    if (!plan.steady) return;
+    const plan::SteadyState& steady = *plan.steady;
+    const PrintedTape tape(steady.quantities, plan, "q", [&](Op, int k) { return "s." + plan.inputs[static_cast<std::size_t>(k)].name; });
+    DataList quantities;
+    for (std::size_t k = 0; k < steady.averaged.size(); ++k) {
+        const plan::Averaged& a = steady.averaged[k];
+        Data q;
+        q.set("value", tape.results()[k]);
+        q.set("tolerance", std::isfinite(a.tolerance) ? literal(a.tolerance, plan) : std::string("std::numeric_limits<Scalar>::infinity()"));
+        q.set("what", a.name + " " + unit_text(a.unit));
+        quantities.push_back(q);
+    }
+    d.set("quantity_lines", tape.lines());
+    d.set("quantities", listed(quantities));
+    d.set("quantity_count", std::to_string(quantities.size()));
+    d.set("block", std::to_string(steady.block));
+    d.set("stretch", steady.stretches < 0 ? std::string("Scalar(1)") : "s." + plan.inputs[static_cast<std::size_t>(steady.stretches)].name);
+    d.set("stretch_name", steady.stretches < 0 ? std::string() : plan.inputs[static_cast<std::size_t>(steady.stretches)].name);
+}
+
 std::string estimator_header(const Plan& plan, const std::string& hash) {
     Data d = head(plan, hash);
     set_cost(plan, d);
@@ -241,7 +275,9 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
     d.set("inputs", listed(inputs));
     d.set("filters", listed(filters));
 
+    set_steady(plan, d);
     const PrintedTape signals(plan.signals, plan, "v", [&](Op op, int k) {
+        if (plan.steady) return "means[" + std::to_string(k) + "]";
         const std::string& name = plan.inputs[static_cast<std::size_t>(k)].name;
         return op == Op::input ? "s." + name : op == Op::previous ? "previous_." + name : "derivative_" + name;
     });
@@ -259,7 +295,7 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
 
     const PrintedTape map(plan.parameter_map, plan, "m", [](Op, int k) { return "lumped[" + std::to_string(k) + "]"; });
     d.set("map_lines", map.lines());
-    d.set("libm", signals.uses_libm() || map.uses_libm());
+    d.set("libm", uses_libm(plan.signals) || uses_libm(plan.parameter_map) || (plan.steady && uses_libm(plan.steady->quantities)));
     DataList parameters;
     DataList estimated;
     std::string names;

@@ -28,6 +28,9 @@ struct Signal {
     std::optional<Rational> min;
     std::optional<Rational> max;
     bool scored = true;
+    std::string formula_text;         ///< of a signal that is computed from measured ones; empty: it is measured
+    formula::Formula formula;
+    std::optional<Rational> steady;   ///< largest spread of its means over the quarters of a steady block, in the unit
 };
 
 struct Constant {
@@ -79,6 +82,12 @@ struct Feedback {
 enum class Functional { annihilator, discrete, derivative, average };
 enum class Solver { square, robust, least_squares, elimination };
 
+/// The name of something that another section declares.
+struct Mention {
+    std::string name;
+    Position at;
+};
+
 struct Estimator {
     bool given = false;
     Position at;
@@ -93,6 +102,8 @@ struct Estimator {
     bool whiten = false;
     std::optional<Rational> omega_n;        ///< rad/s, of the ratio filter; empty: there is none
     Rational zeta = Rational(707) / 1000;   ///< as in 000
+    std::vector<Mention> stages;            ///< elimination: equations in the order in which they are solved; empty: all at once
+    Mention stretches;                      ///< average: the signal that numbers the stretches to be averaged; no name: steady ones are looked for
     std::string engine = "fir";
     plan::Quadrature quadrature = plan::Quadrature::exact;
 };

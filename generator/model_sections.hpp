@@ -26,7 +26,9 @@ void read_parameters(const toml::table& root, Reading& reading);
 void read_sampling(const toml::table& root, Reading& reading);
 void read_estimator(const toml::table& root, Reading& reading);
 
-// model_equations.cpp: [[equation]] or [transfer], and [[feedback]]; after the quantities that they name.
+// model_equations.cpp: computed signals, [[equation]] or [transfer], and [[feedback]]; after the quantities that they name.
+/// formula = "..." of computed signals.
+void read_formulas(const toml::table& root, Reading& reading);
 void read_equations(const toml::table& root, Reading& reading);
 void read_feedback(const toml::table& root, Reading& reading);
 

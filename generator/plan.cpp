@@ -11,6 +11,7 @@
 
 #include "generator/annihilator.hpp"
 #include "generator/dimension.hpp"
+#include "generator/elimination_data.hpp"
 #include "generator/generate.hpp"
 #include "generator/initial_value.hpp"
 #include "generator/kernel.hpp"
@@ -22,6 +23,7 @@
 #include "generator/perturbation.hpp"
 #include "generator/row_choice.hpp"
 #include "generator/row_weight.hpp"
+#include "generator/steady_state.hpp"
 #include "generator/tape_builder.hpp"
 
 namespace algest::generator {
@@ -52,7 +54,7 @@ public:
 
         head();
         equations();
-        inputs();
+        if (!inputs()) return std::nullopt;
         solver();
         tables_and_rows(*weights);
         unknowns_and_parameters();
@@ -66,7 +68,8 @@ public:
         std::vector<OperatorForm> out;
         bool good = true;
         for (const model::Equation& e : model.equations) {
-            const auto form = equation::operator_form(model, e, diagnostics);
+            auto form = equation::operator_form(model, e, diagnostics);
+            if (form && model.estimator.functional == model::Functional::average) form = in_steady_state(model, e, *form, diagnostics);
             good = good && form.has_value();
             if (form) out.push_back(*form);
         }
@@ -84,6 +87,8 @@ private:
         return !diagnostics_.has_errors();
     }
 
+    bool averages() const { return model_.estimator.functional == model::Functional::average; }
+
     Rational intervals() const { return *model_.window / model_.window_period(); }
 
     void head() {
@@ -95,7 +100,7 @@ private:
         plan_.period_text = exact::text(*model_.period);
         plan_.period = exact::nearest(*model_.period, plan::Scalar::float64);
         plan_.rate = exact::nearest(1 / *model_.period, options_.scalar);
-        plan_.intervals = cln::cl_I_to_int(cln::numerator(intervals()));
+        plan_.intervals = averages() ? 0 : cln::cl_I_to_int(cln::numerator(intervals()));
         plan_.decimate = model_.decimate;
         plan_.quadrature = model_.estimator.quadrature;
         if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\"");
@@ -136,6 +141,7 @@ private:
             }
             out.form = model_.estimator.form;
             for (const ChosenRow& row : rows_) {
+                if (averages()) break;
                 if (row.equation != static_cast<int>(e) || (out.form == 1 && !out.annihilated.empty())) continue;
                 out.annihilated.push_back({out.form == 1 ? 0 : row.p, {}});
                 for (int i = 0; i <= out.n; ++i) {
@@ -155,7 +161,21 @@ private:
         return form.text(product);
     }
 
-    void inputs() {
+    /// The quantities of operating points, computed from the inputs.
+    bool quantities(const std::set<int>& used) {
+        auto steady = steady_signals(model_, used, diagnostics_);
+        if (!steady) return false;
+        feed(steady->inputs, {});
+        TapeBuilder tape(model_, plan_.scalar, {input_of_signal_});
+        for (const plan::Averaged& a : steady->state.averaged) tape.result(tape.signal(model_.signal_index(a.name)));
+        steady->state.quantities = tape.finish();
+        if (steady->state.stretches >= 0) steady->state.stretches = input_of_signal_[static_cast<std::size_t>(steady->state.stretches)];
+        plan_.steady = steady->state;
+        input_of_signal_ = steady->index;
+        return true;
+    }
+
+    bool inputs() {
         std::set<int> used;
         std::set<int> differentiated;
         for (std::size_t e = 0; e < forms_.size(); ++e) {
@@ -171,6 +191,13 @@ private:
                 }
             }
         }
+        if (averages()) return quantities(used);
+        feed(measured(model_, used), differentiated);
+        return true;
+    }
+
+    /// Makes inputs of these signals.
+    void feed(const std::set<int>& used, const std::set<int>& differentiated) {
         input_of_signal_.assign(model_.signals.size(), -1);
         const double infinity = std::numeric_limits<double>::infinity();
         for (const int s : used) {
@@ -191,7 +218,7 @@ private:
         bool held = true;
         for (const equation::Factor& factor : product) {
             const equation::Atom& atom = forms_[e].atoms[static_cast<std::size_t>(factor.atom)];
-            for (const int s : atom.arguments) held = held && model_.signals[static_cast<std::size_t>(s)].hold == plan::Hold::zoh;
+            for (const int s : measured(model_, {atom.arguments.begin(), atom.arguments.end()})) held = held && model_.signals[static_cast<std::size_t>(s)].hold == plan::Hold::zoh;
             held = held && !atom.differentiates && (atom.kind != equation::Atom::Kind::derivative || forms_[e].order(product) > 0);
         }
         return held;
@@ -256,7 +283,12 @@ private:
                    std::to_string(kind.p > 0 ? kind.p : kind.perturbation) + "_" + rule;
         const kernel::Coefficients& k = kernel_of(derivative, kind, orders(e));
         for (const Rational& c : k) out.kernel.push_back(exact::text(c));
-        if (options_.weights) out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
+        if (averages()) {
+            out.name = "mean";
+            out.weights = {1};
+        } else if (options_.weights) {
+            out.weights = kernel::weights(k, plan_.intervals, hold, plan_.quadrature, plan_.scalar);
+        }
         plan_.tables.push_back(std::move(out));
         return static_cast<int>(plan_.tables.size()) - 1;
     }
@@ -294,7 +326,7 @@ private:
 
     void noise(TapeBuilder& tape) {
         const model::Estimator& e = model_.estimator;
-        if (e.solve == model::Solver::least_squares || !e.uncertainty.value_or(true)) return;
+        if (e.solve == model::Solver::least_squares || e.solve == model::Solver::elimination || !e.uncertainty.value_or(true)) return;
         noise_ = noise_channels(model_, input_of_signal_, window_operations_, plan_.scalar, tape);
         plan_.noise = noise_.channels;
         for (const NoiseChannels::Partial& p : noise_.partials) {
@@ -316,7 +348,7 @@ private:
         if (product.empty()) {
             out.signal = -1;
             out.table = -1;
-            factor = factor * kernel::integral(k, plan_.intervals, plan::Hold::linear, plan_.quadrature);
+            if (!averages()) factor = factor * kernel::integral(k, plan_.intervals, plan::Hold::linear, plan_.quadrature);
         } else {
             out.signal = window_signal(e, product, tape);
             out.table = table(e, derivative, kind, plan_.window_signals[static_cast<std::size_t>(out.signal)].hold);
@@ -337,6 +369,10 @@ private:
         std::vector<int> operations(model_.parameters.size(), -1);
         for (std::size_t k = 0; k < model_.parameters.size(); ++k) {
             const model::Parameter& p = model_.parameters[k];
+            if (lumping_.elimination) {
+                plan_.parameters.push_back({p.name, p.unit, p.name, p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0, false});
+                map.result(map.input(static_cast<int>(k)));
+            }
             if (!lumping_.inverse[k]) continue;
             plan_.parameters.push_back({p.name, p.unit, text(*lumping_.inverse[k], unknowns), p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0, false});
             operations[k] = map.quotient(*lumping_.inverse[k]);
@@ -344,6 +380,7 @@ private:
         }
         perturbations(map, operations);
         plan_.parameter_map = map.finish();
+        elimination();
         if (plan_.uncertain()) derivatives_of_the_map();
     }
 
@@ -367,6 +404,19 @@ private:
                 plan_.parameters.push_back({name, of_coefficient.known() ? of_coefficient.text() : "", what, 0.0, true});
             }
         }
+    }
+
+    void elimination() {
+        plan_.elimination = lumping_.elimination;
+        if (!plan_.elimination) return;
+        const auto round = [&](auto& terms) {
+            for (auto& term : terms) term.coefficient = exact::nearest(exact::from_text(term.exact), plan_.scalar);
+        };
+        for (plan::EliminationStage& stage : plan_.elimination->stages) {
+            round(stage.alone);
+            round(stage.summands);
+        }
+        if (plan_.scalar == plan::Scalar::float32) plan_.notes.push_back("single precision does not hold the coefficients of a resultant, nor the products of signals of different sizes: use double");
     }
 
     void derivatives_of_the_map() {
@@ -394,6 +444,7 @@ private:
         const model::Estimator& e = model_.estimator;
         plan_.solve = e.solve == model::Solver::robust          ? algest::Solve::robust
                       : e.solve == model::Solver::least_squares ? algest::Solve::least_squares
+                      : e.solve == model::Solver::elimination ? algest::Solve::elimination
                                                                 : algest::Solve::square;
         plan_.solve_instants = 0;
         if (plan_.solve == algest::Solve::robust) {
@@ -436,6 +487,9 @@ private:
         for (const plan::Row& row : plan_.perturbation) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Row& row : plan_.rows) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Parameter& p : plan_.parameters) numbers.push_back(p.initial);
+        const auto elimination = plan::make_elimination<double>(plan_.elimination);
+        for (const auto* of : {&elimination.sizes, &elimination.coefficient_of, &elimination.terms}) numbers.insert(numbers.end(), of->begin(), of->end());
+        for (const auto& a : elimination.alone) numbers.push_back(a.coefficient);
         for (const plan::Tape* tape : {&plan_.signals, &plan_.parameter_map, &plan_.map_derivatives}) for (const plan::Operation& o : tape->operations) numbers.push_back(o.value);
         const bool tables_fit = std::all_of(plan_.tables.begin(), plan_.tables.end(), [&](const plan::Table& t) { return finite(t.weights); });
         if (tables_fit && finite(numbers)) return true;

@@ -124,6 +124,53 @@ struct RatioFilter {
     std::vector<double> now;
 };
 
+/// A column of the rows that is a number times one parameter or its square, which no other column of its stage has.
+struct EliminationAlone {
+    int parameter;
+    bool squared;
+    std::string exact;         ///< the coefficient as a rational
+    double coefficient;        ///< rounded once to the scalar
+};
+
+/// A summand of a column: a number times powers of the parameters, of the square of one that enters its stage by squares alone.
+struct EliminationSummand {
+    int column;                ///< within the stage
+    std::string exact;
+    double coefficient;
+    std::vector<int> exponents;
+};
+
+/// A term of the resultant: a number times coefficients of the extremum equations (runtime's elimination.hpp says which).
+struct EliminationTerm {
+    double coefficient;
+    std::vector<int> factors;
+};
+
+/// Parameters that are solved for together, by one equation or more.
+struct EliminationStage {
+    std::vector<std::string> equations;
+    int first_column;
+    int columns;
+    std::vector<EliminationAlone> alone;
+    std::vector<EliminationSummand> summands;
+    int x;                     ///< the parameter that the resultant eliminates; -1: none
+    int y;                     ///< the one that it leaves; -1: all stand alone
+    bool x_squared;
+    bool y_squared;
+    int degree_x;              ///< of the columns
+    int degree_y;
+    std::vector<EliminationTerm> resultant;
+    int resultant_degree;      ///< in y
+    int degree_of_first;       ///< of dE/dx in x
+    int degree_of_second;      ///< of dE/dy in x
+};
+
+/// How the columns of the rows hang on fewer parameters, counted in sizes that are powers of two.
+struct Elimination {
+    std::vector<double> sizes;   ///< by parameter
+    std::vector<EliminationStage> stages;
+};
+
 /// A parameter that the user asked for.
 struct Parameter {
     std::string name;
@@ -131,6 +178,21 @@ struct Parameter {
     std::string from;        ///< in the lumped parameters, e.g. "Gamma2/Gamma1"
     double initial;          ///< held until the first ok estimate
     bool perturbation;       ///< no parameter: a coefficient of a perturbation on the window
+};
+
+/// A quantity that is averaged over operating points.
+struct Averaged {
+    std::string name;
+    std::string unit;       ///< empty: not declared
+    double tolerance;       ///< largest spread of its means over the quarters of a steady block; infinite: not asked
+};
+
+/// Rows from means over steady blocks of samples instead of from windows.
+struct SteadyState {
+    int block;                        ///< samples
+    std::vector<Averaged> averaged;   ///< what the signals' tape reads
+    Tape quantities;                  ///< inputs -> averaged quantities
+    int stretches;                    ///< the input that numbers stretches; -1: none
 };
 
 struct Plan {
@@ -167,6 +229,8 @@ struct Plan {
     double deviation_limit;    ///< 0: not asked
     bool whiten;
     std::optional<RatioFilter> ratio;
+    std::optional<Elimination> elimination;   ///< with solve = elimination
+    std::optional<SteadyState> steady;        ///< of the functional average; a window is then one mean
     std::vector<std::string> notes;   ///< what was chosen for the user, in words
 
     int samples() const { return intervals + 1; }
@@ -176,6 +240,7 @@ struct Plan {
     bool uncertain() const { return !noise.empty(); }
     /// From a start or restart: the window, the instants of S(t), the samples that a first mean and a delayed model need before.
     int samples_to_first_estimate() const {
+        if (steady) return steady->block;
         const int instants = samples() + (solve_instants > 0 ? solve_instants - 1 : 0);
         return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0);
     }

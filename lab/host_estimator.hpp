@@ -11,6 +11,7 @@
 #include "algest/boxcar.hpp"
 #include "algest/estimator.hpp"
 #include "algest/parabola_filter.hpp"
+#include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
 #include "generator/plan.hpp"
 #include "generator/tape.hpp"
@@ -36,13 +37,13 @@ public:
           push_scratch_(size(push_scratch(blueprint_.rows.rows, blueprint_.unknowns))),
           estimate_scratch_(size(uncertainty_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns,
                                                      plan.solve_instants) +
-                                 packed_size(blueprint_.unknowns))),
+                                 packed_size(blueprint_.unknowns) + elimination_scratch(blueprint_.elimination.view()))),
           previous_(plan.inputs.size()),
           filters_(plan.inputs.size()),
           derivatives_(plan.inputs.size()),
           signal_values_(plan.signals.operations.size()),
           signals_(plan.signals.results.size()),
-          lumped_(plan.lumped.size() + plan.perturbation.size()),
+          lumped_(std::max(plan.lumped.size() + plan.perturbation.size(), plan.parameters.size())),
           map_values_(plan.parameter_map.operations.size()),
           mapped_(plan.parameter_map.results.size()),
           parameters_(plan.parameters.size()),
@@ -54,6 +55,13 @@ public:
           bias_(plan.parameters.size()) {
         for (const plan::WindowSignal& s : plan.window_signals) held_.push_back(s.held ? 1 : 0);
         held_.resize(size(blueprint_.signals), 0);
+        if (plan.steady) {
+            for (const plan::Averaged& a : plan.steady->averaged) tolerance_.push_back(static_cast<S>(a.tolerance));
+            steady_.resize(size(steady_scalars(static_cast<int>(tolerance_.size()))));
+            quantity_values_.resize(plan.steady->quantities.operations.size());
+            quantities_.resize(tolerance_.size());
+            point_means_.resize(tolerance_.size());
+        }
         reset();
     }
 
@@ -62,6 +70,8 @@ public:
         algest::reset(blueprint_.view(), memory());
         run_ = 0;
         block_ = {};
+        point_ = {};
+        solved_ = never;
         status_ = Status::filling;
         condition_ = std::numeric_limits<S>::infinity();
         for (std::size_t k = 0; k < parameters_.size(); ++k) parameters_[k] = static_cast<S>(plan_->parameters[k].initial);
@@ -80,6 +90,18 @@ public:
             differentiate(inputs);
             run_ = 2;
         }
+        if (plan_->steady) {
+            plan::evaluate<S>(plan_->steady->quantities, inputs, nullptr, nullptr, quantity_values_.data(), quantities_.data());
+            const int count = static_cast<int>(quantities_.size());
+            if (!all_finite(quantities_.data(), count)) return refuse();
+            const S stretch = plan_->steady->stretches < 0 ? S(1) : inputs[plan_->steady->stretches];
+            if (!average_steady(steady_.data(), point_, tolerance_.data(), count, plan_->steady->block, stretch, quantities_.data(), point_means_.data())) {
+                if (progress_.rejected != 0U) algest::prime(memory());
+                return;
+            }
+            ++points_;
+            inputs = point_means_.data();
+        }
         plan::evaluate(plan_->signals, inputs, previous_.data(), derivatives_.data(), signal_values_.data(),
                        signals_.data());
         if (!all_finite(signals_.data(), static_cast<int>(plan_->window_signals.size()))) return refuse();
@@ -95,8 +117,11 @@ public:
 
     /// Solves with the windows as they are now. Cost: that of the runtime's estimate, and the parameter map.
     Status estimate() {
+        const std::uint32_t now = progress_.sequence;
+        if (plan_->steady && now == solved_) return status_;   // no operating point since
         const Latest<S> latest = algest::estimate(blueprint_.view(), memory(), estimate_scratch_.data(), lumped_.data());
         if (!latest.current) return status_;
+        solved_ = now;
         status_ = latest.status;
         condition_ = latest.condition;
         if (status_ == Status::ok && !map_parameters()) status_ = Status::singular;
@@ -131,12 +156,33 @@ public:
     const std::vector<S>& bias() const { return bias_; }
 
     Status status() const { return status_; }
+    /// Operating points since the start, and the means of the newest: one per plan.steady->averaged.
+    std::size_t points() const { return points_; }
+    const std::vector<S>& point() const { return point_means_; }
+    /// Every candidate of an elimination with the rows as they are now, stage after stage. Cost: that of estimate.
+    std::vector<Candidate<double>> candidates() {
+        std::vector<Candidate<S>> found(most_candidates);
+        CandidateList<S> list{found.data(), most_candidates, 0};
+        const int columns = blueprint_.unknowns;
+        if (plan_->elimination && progress_.absorbed != 0U) {
+            (void)eliminate(blueprint_.elimination.view(), sums_.data(), columns, estimate_scratch_.data(), lumped_.data(), &list);
+        }
+        std::vector<Candidate<double>> out;
+        for (int k = 0; k < list.count; ++k) {
+            const Candidate<S>& c = found[size(k)];
+            out.push_back({c.stage, static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.error), c.verdict});
+        }
+        return out;
+    }
     /// Of the scaled matrix that was solved last; infinity unless the status is ok or singular.
     S condition() const { return condition_; }
     /// One per plan.parameters, in its unit: of the last ok step, else the initial values.
     const std::vector<S>& parameters() const { return parameters_; }
 
 private:
+    static constexpr std::uint32_t never = 1;   ///< no sequence at rest is odd
+    static constexpr int most_candidates = 200;
+
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
     Memory<S> memory() { return {rings_.data(), sums_.data(), published_.data(), &progress_, whitened_at_.data(), ratio_.data()}; }
@@ -173,6 +219,7 @@ private:
         algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
         run_ = 0;
         block_ = {};
+        point_ = {};
     }
 
     /// Lumped -> parameters; false, and the parameters as they were, if one is not finite.
@@ -197,6 +244,14 @@ private:
     std::vector<S> means_;
     std::vector<unsigned char> held_;
     BoxcarProgress block_{};
+    SteadyProgress point_{};
+    std::uint32_t solved_ = never;
+    std::size_t points_ = 0;
+    std::vector<S> tolerance_;
+    std::vector<S> steady_;
+    std::vector<S> quantity_values_;
+    std::vector<S> quantities_;
+    std::vector<S> point_means_;
     std::vector<S> push_scratch_;
     std::vector<S> estimate_scratch_;
     std::vector<S> previous_;

@@ -34,6 +34,9 @@ public:
     Compiler(const model::Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
 
     std::optional<OdeSystem> run() {
+        for (const model::Signal& s : model_.signals) {
+            if (s.formula) return fail(s.at, "'" + s.name + "' is computed by a formula, which a simulation does not know", "write the formula in the equations");
+        }
         if (model_.equations.empty()) return fail({}, "no equations", "a simulation needs equations of motion");
         find_orders();
         if (!assign_signals()) return std::nullopt;

@@ -60,7 +60,8 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
            const ProgressReport& progress) {
     constexpr std::size_t samples_between_reports = 512;
     HostEstimator<S> estimator(plan);
-    Replay out{{}, {}, {}, {}, plan.parameters.size(), {}};
+    Replay out{{}, {}, {}, {}, plan.parameters.size(), {}, {}, {}};
+    out.points.quantities = plan.steady ? plan.steady->averaged.size() : 0;
     out.t.reserve(rows.size());
     out.status.reserve(rows.size());
     out.condition.reserve(rows.size());
@@ -68,7 +69,9 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
     std::vector<S> sample(inputs.size());
     for (std::size_t k = rows.begin; k < rows.end; ++k) {
         for (std::size_t i = 0; i < inputs.size(); ++i) sample[i] = static_cast<S>(inputs[i][k]);
+        const std::size_t points = estimator.points();
         estimator.step(sample.data());
+        if (estimator.points() != points) out.points.means.insert(out.points.means.end(), estimator.point().begin(), estimator.point().end());
         out.t.push_back(recording.t[k]);
         out.status.push_back(estimator.status());
         out.condition.push_back(static_cast<double>(estimator.condition()));
@@ -77,6 +80,7 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
             progress(static_cast<double>(k - rows.begin) / static_cast<double>(rows.size()));
         }
     }
+    if (plan.elimination) out.candidates = named_candidates(plan, estimator.candidates());
     return out;
 }
 

@@ -12,6 +12,7 @@
 #include "algest/status.hpp"
 #include "generator/diagnostics.hpp"
 #include "generator/plan.hpp"
+#include "lab/operating_points.hpp"
 #include "lab/recording.hpp"
 
 namespace algest::lab {
@@ -30,6 +31,8 @@ struct Replay {
     std::vector<double> parameters;  ///< samples x parameters
     std::size_t parameter_count;
     std::vector<double> deviations = {};   ///< samples x parameters, NaN where none was computed; empty: none were
+    OperatingPoints points = {};           ///< of the functional average
+    std::vector<EliminationCandidate> candidates = {};   ///< of an elimination, with all rows
 
     std::size_t samples() const { return t.size(); }
     double parameter(std::size_t sample, std::size_t p) const { return parameters[sample * parameter_count + p]; }

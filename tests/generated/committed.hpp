@@ -12,12 +12,16 @@
 #include "generated/magnetic_bearing/magnetic_bearing.hpp"
 #include "generated/pendulum/pendulum.hpp"
 #include "generated/pmsm_electrical/pmsm_electrical.hpp"
+#include "generated/pmsm_inertia/pmsm_inertia.hpp"
+#include "generated/pmsm_sensorless/pmsm_sensorless.hpp"
+#include "generated/pmsm_sensorless_voltage/pmsm_sensorless_voltage.hpp"
 #include "generated/positioning_axis/positioning_axis.hpp"
 #include "generated/rl_circuit/rl_circuit.hpp"
 
 #define ALGEST_COMMITTED                                                                         \
     algest::generated::DcMotor, algest::generated::MagneticBearing, algest::generated::Pendulum, \
-        algest::generated::PmsmElectrical, algest::generated::PositioningAxis, algest::generated::RlCircuit
+        algest::generated::PmsmElectrical, algest::generated::PmsmInertia, algest::generated::PmsmSensorless,     \
+        algest::generated::PmsmSensorlessVoltage, algest::generated::PositioningAxis, algest::generated::RlCircuit
 
 namespace algest::test {
 
@@ -32,6 +36,12 @@ template <>
 inline constexpr const char* model<generated::Pendulum> = "pendulum";
 template <>
 inline constexpr const char* model<generated::PmsmElectrical> = "pmsm_electrical";
+template <>
+inline constexpr const char* model<generated::PmsmInertia> = "pmsm_inertia";
+template <>
+inline constexpr const char* model<generated::PmsmSensorless> = "pmsm_sensorless";
+template <>
+inline constexpr const char* model<generated::PmsmSensorlessVoltage> = "pmsm_sensorless_voltage";
 template <>
 inline constexpr const char* model<generated::PositioningAxis> = "positioning_axis";
 template <>

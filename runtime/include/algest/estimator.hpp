@@ -9,6 +9,7 @@
 
 #include "algest/abi.hpp"
 #include "algest/arithmetic.hpp"
+#include "algest/elimination.hpp"
 #include "algest/gram_window.hpp"
 #include "algest/noise.hpp"
 #include "algest/ratio_filter.hpp"
@@ -26,7 +27,8 @@ namespace algest {
 enum class Solve : std::uint8_t {
     square,         ///< the rows of the newest instant alone, solved in estimate(); in the least-squares sense if there are more than unknowns
     robust,         ///< S(t) over the last solve_instants instants, summed in push()
-    least_squares   ///< every row since reset, absorbed in push()
+    least_squares,  ///< every row since reset, absorbed in push()
+    elimination     ///< likewise; the columns are polynomials of fewer parameters
 };
 
 /// An estimator as constant data, shared by all its instances.
@@ -35,7 +37,7 @@ struct Blueprint {
     RowSet<S> rows;
     Solve solve;
     int solve_instants;   ///< robust: instants in S(t)
-    S keep;               ///< least_squares: factor on the old triangle at each instant; 1 forgets nothing
+    S keep;               ///< least_squares and elimination: factor on the old triangle at each instant; 1 forgets nothing
     S condition_limit;    ///< above it an estimate is singular
     int kept;             ///< samples that the rings keep beyond one window; kept_samples() or more
     Noise<S> noise;       ///< of the sensors
@@ -43,6 +45,7 @@ struct Blueprint {
     View<S> whiten_at;    ///< unknowns at which rows are whitened until the first ok estimate; empty: they are not whitened
     LowPass<S> ratio;     ///< robust: of numerators and denominator
     RowSet<S> perturbation;   ///< rows whose residuals at the estimate are the perturbation's coefficients; none: rows == 0
+    Elimination<S> elimination = {};   ///< what the columns mean; otherwise empty
 };
 
 /// Pushes that may fall into one reading of the windows without spoiling it.
@@ -66,7 +69,7 @@ constexpr int published_scalars(Solve solve, int unknowns) noexcept {
 }
 /// Scalars of scratch that push needs.
 constexpr int push_scratch(int rows, int unknowns) noexcept { return rows * (unknowns + 1); }
-/// Scalars of scratch that estimate needs without a deviation limit. rows: of an instant, or of the perturbation if they are more.
+/// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     int most = solve_rows_scratch(unknowns);
     if (solve_gram_scratch(unknowns) > most) most = solve_gram_scratch(unknowns);
@@ -139,13 +142,13 @@ inline void reset(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     for (int u = 0; u < blueprint.whiten_at.size; ++u) memory.whitened_at[u] = blueprint.whiten_at[u];
     if (blueprint.ratio.used) restart_ratio(memory.ratio);
     if (blueprint.solve == Solve::robust) clear_gram(memory.sums, memory.progress->gram, blueprint.rows.unknowns);
-    if (blueprint.solve == Solve::least_squares) {
+    if (blueprint.solve == Solve::least_squares || blueprint.solve == Solve::elimination) {
         for (int i = 0; i < triangle_scalars(blueprint.rows.unknowns); ++i) memory.sums[i] = S(0);
     }
 }
 
 /// Takes one sample of every signal; nullptr says that the newest sample was refused: the windows and S(t) restart,
-/// the rows that least_squares absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
+/// the rows that least_squares and elimination absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
 /// their absorption. Never fails.
 template <class S>
 inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
@@ -334,7 +337,9 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
     } else {
         for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * size + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
-        solved = blueprint.solve == Solve::robust ? solve_gram(at.sums, n, at.work, lumped) : solve_triangle(at.sums, n, at.work, lumped);
+        solved = blueprint.solve == Solve::robust          ? solve_gram(at.sums, n, at.work, lumped)
+                 : blueprint.solve == Solve::least_squares ? solve_triangle(at.sums, n, at.work, lumped)
+                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped);
     }
     bool good = solved.regular && solved.condition <= blueprint.condition_limit;
     if (blueprint.ratio.used) {   // what solve_gram leaves in its scratch: L and D, then the scales
@@ -354,7 +359,8 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
 
 }  // namespace detail
 
-/// Solves with the newest windows; writes `lumped` (unknowns entries, then the perturbation's) only where it is of use: with status ok.
+/// Solves with the newest windows; `lumped` (unknowns entries, then the perturbation's; with elimination the parameters instead) is of use with
+/// status ok alone.
 /// scratch: estimate_scratch; with a deviation limit uncertainty_scratch and packed_size(unknowns) more.
 /// Cost: square: all dot products and one solve; else one solve; a perturbation's dot products; whitened rows: residual_factor; a deviation
 /// limit: that of uncertainty. With a ratio filter call it once per push. Never fails, fixed loops.
