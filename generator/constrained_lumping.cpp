@@ -84,7 +84,7 @@ private:
             unknown[p] = !known_[p] && std::any_of(equations.begin(), equations.end(), [&](int e) { return holds(e, p); });
             if (unknown[p]) component.parameters.push_back(static_cast<int>(p));
         }
-        if (!std::all_of(equations.begin(), equations.end(), [&](int e) { return has_known_side(e); })) return false;
+        if (!std::all_of(equations.begin(), equations.end(), [&](int e) { return has_known_side(e) && asks_no_perturbation(e); })) return false;
         if (const Undetermined open = undetermined(model_, forms_, component, true); open.missing > 0) return refuse_open(component, open);
         const Columns columns = columns_of(equations);
         const elimination::Outcome outcome = elimination::sort_columns(columns.meaning, unknown, sizes_);
@@ -106,6 +106,12 @@ private:
         if (std::any_of(form.terms.begin(), form.terms.end(), [&](const Term& t) { return t.coefficient.count(none) > 0 && kept(equation(e), form, t); })) return true;
         diagnostics_.error(model_.path, equation(e).at, "every term of equation '" + equation(e).name + "' has a parameter: elimination needs one that has none",
                            "divide the equation by a parameter, and name the quotients as parameters of their own");
+        return false;
+    }
+
+    bool asks_no_perturbation(int e) {
+        if (equation(e).perturbation.empty()) return true;
+        diagnostics_.error(model_.path, equation(e).perturbation_at, "a perturbation is not to be had with elimination", "use another solve, or leave it out");
         return false;
     }
 

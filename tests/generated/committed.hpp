@@ -20,8 +20,11 @@
 
 #define ALGEST_COMMITTED                                                                         \
     algest::generated::DcMotor, algest::generated::MagneticBearing, algest::generated::Pendulum, \
-        algest::generated::PmsmElectrical, algest::generated::PmsmInertia, algest::generated::PmsmSensorless,     \
-        algest::generated::PmsmSensorlessVoltage, algest::generated::PositioningAxis, algest::generated::RlCircuit
+        algest::generated::PmsmElectrical, algest::generated::PmsmInertia,                           \
+        algest::generated::PositioningAxis, algest::generated::RlCircuit
+
+/// Those that answer operating points alone.
+#define ALGEST_COMMITTED_AVERAGES algest::generated::PmsmSensorless, algest::generated::PmsmSensorlessVoltage
 
 namespace algest::test {
 

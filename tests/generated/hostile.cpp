@@ -142,7 +142,7 @@ Status fed(const char* model, const std::function<std::vector<double>(int)>& inp
 }
 
 constexpr const char* all_models[] = {"dc_motor",        "magnetic_bearing", "pendulum",
-                                      "pmsm_electrical", "positioning_axis", "rl_circuit"};
+                                      "pmsm_electrical", "pmsm_inertia",     "positioning_axis", "rl_circuit"};
 
 }  // namespace
 
@@ -180,6 +180,7 @@ TEST_CASE("hostile samples: the compiled classes answer them alike") {
     compare(std::make_unique<generated::MagneticBearing>(), "magnetic_bearing");
     compare(std::make_unique<generated::Pendulum>(), "pendulum");
     compare(std::make_unique<generated::PmsmElectrical>(), "pmsm_electrical");
+    compare(std::make_unique<generated::PmsmInertia>(), "pmsm_inertia");
     compare(std::make_unique<generated::PositioningAxis>(), "positioning_axis");
     compare(std::make_unique<generated::RlCircuit>(), "rl_circuit");
 }

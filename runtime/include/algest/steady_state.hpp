@@ -36,7 +36,8 @@ constexpr int quarter_start(int block, int quarter) noexcept { return static_cas
 }  // namespace detail
 
 /// Adds one sample of every quantity; true when it ends a block of `block` samples (4 or more) that is steady: `mean` then holds its means. Steady: the
-/// means of its four quarters lie within `tolerance` of each other, for each quantity (infinite: not asked). A block that is not is dropped. stretch: a
+/// means of its four quarters lie within `tolerance` of each other, for each quantity (infinite: not asked). A block that is not is dropped at the quarter
+/// that tells, and the next one begins. stretch: a
 /// block never crosses a change of this number, and there is none while it is zero; the same number always: no stretches are given.
 /// What is constant has that constant as its mean, exactly. Cost: 3 operations a quantity, 8 at the end of a quarter. Never fails.
 template <class S>
@@ -58,21 +59,19 @@ inline bool average_steady(S* state, SteadyProgress& progress, const S* toleranc
     const int end = detail::quarter_start(block, progress.quarter + 1);
     if (progress.samples < end) return false;
     const S in_quarter = S(end - detail::quarter_start(block, progress.quarter));
+    bool steady = true;
     for (int i = 0; i < quantities; ++i) {
         const S of_it = of_quarter[i] / in_quarter;
         least[i] = progress.quarter == 0 ? of_it : smaller(least[i], of_it);
         largest[i] = progress.quarter == 0 ? of_it : larger(largest[i], of_it);
         of_block[i] += of_quarter[i];
         of_quarter[i] = S(0);
+        steady = steady && largest[i] - least[i] <= tolerance[i];
     }
     ++progress.quarter;
-    if (progress.quarter < 4) return false;
-    bool steady = true;
-    for (int i = 0; i < quantities; ++i) {
-        steady = steady && largest[i] - least[i] <= tolerance[i];
-        mean[i] = first[i] + of_block[i] / S(block);
-    }
+    if (steady && progress.quarter < 4) return false;
     progress = {0, 0};
+    for (int i = 0; i < quantities && steady; ++i) mean[i] = first[i] + of_block[i] / S(block);
     return steady;
 }
 
