@@ -30,7 +30,7 @@ ordered_json candidates_json(const std::vector<lab::EliminationCandidate>& candi
     for (const lab::EliminationCandidate& c : candidates) {
         ordered_json values = ordered_json::object();
         for (const auto& value : c.values) values[value.name] = number_or_null(value.value);
-        out.push_back({{"equations", c.equations}, {"values", std::move(values)}, {"error", number_or_null(c.error)}, {"verdict", lab::in_words(c.verdict)}});
+        out.push_back({{"equations", c.equations}, {"values", std::move(values)}, {"error", number_or_null(c.error)}, {"standing", lab::in_words(c.standing)}});
     }
     return out;
 }
@@ -40,7 +40,7 @@ std::string candidates_text(const std::vector<lab::EliminationCandidate>& candid
     for (const lab::EliminationCandidate& c : candidates) {
         std::string values;
         for (const auto& value : c.values) values += fmt::format("{} = {:.6g}, ", value.name, value.value);
-        out += fmt::format("  {}: {}squared error {:.5g}: {}\n", c.equations, values, c.error, lab::in_words(c.verdict));
+        out += fmt::format("  {}: {}squared error {:.5g}: {}\n", c.equations, values, c.error, lab::in_words(c.standing));
     }
     return out.empty() ? out : "\ncandidates:\n" + out;
 }

@@ -201,6 +201,13 @@ private:
                 }
             }
         }
+        for (const int s : differentiated) {
+            const model::Signal& signal = model_.signals[static_cast<std::size_t>(s)];
+            if (!signal.formula) continue;
+            diagnostics_.error(model_.path, signal.at, "the parabola filter runs on measured signals, and the derivative of '" + signal.name + "' stands inside a nonlinearity",
+                               "measure '" + signal.name + "', or write its derivative by those of measured signals");
+            return false;
+        }
         if (averages()) return quantities(used);
         feed(measured(model_, used), differentiated);
         return true;

@@ -170,7 +170,7 @@ public:
         std::vector<Candidate<double>> out;
         for (int k = 0; k < list.count; ++k) {
             const Candidate<S>& c = found[size(k)];
-            out.push_back({c.stage, static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.error), c.verdict});
+            out.push_back({c.stage, static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.error), c.standing});
         }
         return out;
     }

@@ -23,12 +23,12 @@ bool is_constant(const OperatingPoints& points, std::size_t quantity) {
 
 }  // namespace
 
-const char* in_words(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::best: return "the estimate";
-        case Verdict::extremum: return "an extremum with a larger error";
-        case Verdict::unreal: return "a parameter's square is negative";
-        case Verdict::spurious: return "spurious: not a root of every extremum equation";
+const char* in_words(Standing standing) {
+    switch (standing) {
+        case Standing::best: return "the estimate";
+        case Standing::extremum: return "an extremum with a larger error";
+        case Standing::unreal: return "a parameter's square is negative";
+        case Standing::spurious: return "spurious: not a root of every extremum equation";
     }
     return "?";
 }
@@ -37,7 +37,7 @@ std::vector<EliminationCandidate> named_candidates(const plan::Plan& plan, const
     std::vector<EliminationCandidate> out;
     for (const Candidate<double>& c : candidates) {
         const plan::EliminationStage& stage = plan.elimination->stages[static_cast<std::size_t>(c.stage)];
-        EliminationCandidate named{"", {}, c.error, c.verdict};
+        EliminationCandidate named{"", {}, c.error, c.standing};
         for (const std::string& e : stage.equations) named.equations += (named.equations.empty() ? "" : ", ") + e;
         const auto add = [&](int parameter, bool squared, double value) {
             if (parameter < 0) return;
@@ -48,10 +48,10 @@ std::vector<EliminationCandidate> named_candidates(const plan::Plan& plan, const
         add(stage.y, stage.y_squared, c.y);
         out.push_back(std::move(named));
     }
-    const auto rank = [](Verdict v) { return v == Verdict::best ? 0 : v == Verdict::spurious ? 2 : 1; };
+    const auto rank = [](Standing v) { return v == Standing::best ? 0 : v == Standing::spurious ? 2 : 1; };
     std::stable_sort(out.begin(), out.end(), [&](const EliminationCandidate& a, const EliminationCandidate& b) {
         if (a.equations != b.equations) return false;
-        return rank(a.verdict) != rank(b.verdict) ? rank(a.verdict) < rank(b.verdict) : a.error < b.error;
+        return rank(a.standing) != rank(b.standing) ? rank(a.standing) < rank(b.standing) : a.error < b.error;
     });
     return out;
 }

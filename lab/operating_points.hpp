@@ -27,11 +27,11 @@ struct EliminationCandidate {
     std::string equations;
     std::vector<Value> values;
     double error;           ///< sum of squared residuals, weighted as the rows are
-    Verdict verdict;
+    Standing standing;
 };
 
 /// "the estimate", "an extremum with a larger error", ...
-const char* in_words(Verdict verdict);
+const char* in_words(Standing standing);
 
 /// The runtime's candidates with names, units and true sizes; the best first, spurious ones last, else in order of their errors.
 std::vector<EliminationCandidate> named_candidates(const plan::Plan& plan, const std::vector<Candidate<double>>& candidates);

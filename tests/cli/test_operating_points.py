@@ -51,9 +51,9 @@ class OperatingPoints(CommandLine):
         last = {p["name"]: p["last"] for p in found["parameters"]}
         self.assertAlmostEqual(last["a"], float(A), delta=1e-12)
         self.assertAlmostEqual(last["b"], float(B), delta=1e-12)
-        verdicts = [c["verdict"] for c in found["candidates"]]
-        self.assertEqual(verdicts[0], "the estimate")
-        self.assertEqual(verdicts.count("the estimate"), 1)
+        standings = [c["standing"] for c in found["candidates"]]
+        self.assertEqual(standings[0], "the estimate")
+        self.assertEqual(standings.count("the estimate"), 1)
         self.assertAlmostEqual(found["candidates"][0]["values"]["a"], float(A), delta=1e-12)
         text, _ = self.algest("replay", "points.toml", "run.csv")
         self.assertIn("4 operating points", text)

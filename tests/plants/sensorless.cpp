@@ -191,14 +191,14 @@ TEST_CASE("sensorless: the candidates are told apart as in table A.5") {
         std::string table;
         for (const auto& c : candidates) {
             for (const auto& v : c.values) table += fmt::format("{} {:.5g}  ", v.name, v.value);
-            table += fmt::format("error {:.4g}  {}\n", c.error, lab::in_words(c.verdict));
+            table += fmt::format("error {:.4g}  {}\n", c.error, lab::in_words(c.standing));
         }
         INFO(method << "\n" << table);
-        CHECK(candidates[0].verdict == Verdict::best);
+        CHECK(candidates[0].standing == Standing::best);
         CHECK(relative_error(candidates[0].values.back().value, motor.L) < 0.05);
         for (std::size_t k = 1; k < candidates.size(); ++k) {
-            CHECK(candidates[k].verdict != Verdict::best);
-            CHECK((candidates[k].verdict == Verdict::spurious || candidates[k].error >= candidates[0].error));
+            CHECK(candidates[k].standing != Standing::best);
+            CHECK((candidates[k].standing == Standing::spurious || candidates[k].error >= candidates[0].error));
         }
     }
 }
@@ -235,8 +235,8 @@ TEST_CASE("sensorless: the order of elimination of the paper's appendix finds th
     int best = 0, spurious = 0;
     for (int k = 0; k < list.count; ++k) {
         INFO(found[static_cast<std::size_t>(k)].x << " " << found[static_cast<std::size_t>(k)].y << " " << found[static_cast<std::size_t>(k)].error);
-        best += found[static_cast<std::size_t>(k)].verdict == Verdict::best ? 1 : 0;
-        spurious += found[static_cast<std::size_t>(k)].verdict == Verdict::spurious ? 1 : 0;
+        best += found[static_cast<std::size_t>(k)].standing == Standing::best ? 1 : 0;
+        spurious += found[static_cast<std::size_t>(k)].standing == Standing::spurious ? 1 : 0;
     }
     CHECK(best == 1);
     CHECK(spurious >= 2);   // the cubic in L has three real roots at the right K^2, as in table A.5

@@ -64,7 +64,7 @@ struct Elimination {
 };
 
 /// What became of a candidate.
-enum class Verdict : std::uint8_t {
+enum class Standing : std::uint8_t {
     best,       ///< satisfies every extremum equation, with the smallest error
     extremum,   ///< satisfies every extremum equation; another one has a smaller error
     unreal,     ///< a parameter would be the root of a negative number
@@ -78,7 +78,7 @@ struct Candidate {
     S x;         ///< in the parameters' sizes, of the square where squared
     S y;
     S error;     ///< sum of squared residuals, less what no value of these parameters changes
-    Verdict verdict;
+    Standing standing;
 };
 
 /// Where candidates are listed, if somebody asks: no more than `capacity` of them.
@@ -227,16 +227,16 @@ inline void list(CandidateList<S>* to, const Candidate<S>& candidate) noexcept {
     const S same = std::sqrt(std::numeric_limits<S>::epsilon());
     for (int k = 0; k < to->count; ++k) {
         Candidate<S>& other = to->at[k];
-        const bool both = (other.verdict == Verdict::spurious) == (candidate.verdict == Verdict::spurious);
+        const bool both = (other.standing == Standing::spurious) == (candidate.standing == Standing::spurious);
         if (other.stage == candidate.stage && both && close(candidate.x, other.x, same) && close(candidate.y, other.y, same)) {
-            if (candidate.verdict != Verdict::best) return;
-            other.verdict = Verdict::extremum;   // replaced below by the same one, as the best
+            if (candidate.standing != Standing::best) return;
+            other.standing = Standing::extremum;   // replaced below by the same one, as the best
             other = to->at[--to->count];
             break;
         }
     }
-    for (int k = 0; k < to->count && candidate.verdict == Verdict::best; ++k) {
-        if (to->at[k].stage == candidate.stage && to->at[k].verdict == Verdict::best) to->at[k].verdict = Verdict::extremum;
+    for (int k = 0; k < to->count && candidate.standing == Standing::best; ++k) {
+        if (to->at[k].stage == candidate.stage && to->at[k].standing == Standing::best) to->at[k].standing = Standing::extremum;
     }
     if (to->count < to->capacity) to->at[to->count++] = candidate;
 }
@@ -296,13 +296,13 @@ inline void try_pair(Trial<S>& t, S x, S y) noexcept {
     const bool common = polish(t.s, t.rows, at_x, at_y, error) && alone_at(t.e, t.s, t.triangle, t.width, t.rows, at_x, at_y, t.alone);
     if (!common || !close(at_x, x, S(kept_within)) || !close(at_y, y, S(kept_within))) {
         const S there = error_slopes(t.rows + t.s.alone * plane_size(degrees_of(t.s)), t.s.columns - t.s.alone, degrees_of(t.s), x, y).error;
-        list(t.candidates, Candidate<S>{t.stage, x, y, there, Verdict::spurious});
+        list(t.candidates, Candidate<S>{t.stage, x, y, there, Standing::spurious});
     }
     if (!common) return;
-    if (!real_at(t.e, t.s, at_x, at_y, t.alone)) return list(t.candidates, Candidate<S>{t.stage, at_x, at_y, error, Verdict::unreal});
+    if (!real_at(t.e, t.s, at_x, at_y, t.alone)) return list(t.candidates, Candidate<S>{t.stage, at_x, at_y, error, Standing::unreal});
     const bool better = !t.best.found || error < t.best.error;
     improve(t.best, at_x, at_y, error);
-    list(t.candidates, Candidate<S>{t.stage, at_x, at_y, error, better ? Verdict::best : Verdict::extremum});
+    list(t.candidates, Candidate<S>{t.stage, at_x, at_y, error, better ? Standing::best : Standing::extremum});
 }
 
 /// Tries every real root y of the resultant with every real root x of the first extremum equation there.
