@@ -220,6 +220,8 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
     Data d = head(plan, hash);
     set_cost(plan, d);
     d.set("delayed", plan.delayed());
+    d.set("differentiates", plan.functional == plan::Functional::derivative);
+    d.set("late", plan.delayed() && plan.functional == plan::Functional::annihilator);
     DataList inputs;
     DataList filters;
     for (const plan::Input& input : plan.inputs) {

@@ -95,6 +95,9 @@ struct Estimator {
     Rational zeta = Rational(707) / 1000;   ///< as in 000
     std::string engine = "fir";
     plan::Quadrature quadrature = plan::Quadrature::exact;
+
+    /// True: rows are integrals over [sampling] window. False: an equation has one row an instant.
+    bool has_window() const { return functional == Functional::annihilator; }
 };
 
 struct Model {

@@ -14,6 +14,8 @@ namespace algest::plan {
 
 enum class Scalar : std::uint8_t { float64, float32 };
 enum class Hold : std::uint8_t { zoh, linear };
+/// Of [estimator]: what rows are made of.
+enum class Functional : std::uint8_t { annihilator, derivative };
 enum class Quadrature : std::uint8_t { exact, trapezoid, simpson };
 
 /// A signal that the user feeds, in the order of the model file.
@@ -44,8 +46,9 @@ struct Table {
     int p;
     int perturbation;                  ///< 0, or i: its functional gives the coefficient c_i of the equation's perturbation, and p is 0
     Hold hold;
-    std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0
+    std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0; empty: no polynomial
     std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty if they were not asked for
+                                       ///< and follow from the kernel
 };
 
 /// One term of a row identity  sum theta_l K_l[f_l] = K_0[f_0].
@@ -142,6 +145,7 @@ struct Plan {
     std::string period_text;   ///< exact rational, s; of the samples that are fed
     double period;             ///< s
     double rate;               ///< 1/period, rounded once to the scalar, 1/s
+    Functional functional = Functional::annihilator;
     int intervals;             ///< M; a window has M + 1 samples
     int decimate = 1;          ///< periods that one sample of a window is the mean over; 1: it is a sample that was fed
     Quadrature quadrature;
