@@ -298,7 +298,7 @@ private:
         }
         perturbations(map, operations);
         plan_.parameter_map = map.finish();
-        if (plan_.uncertain()) derivatives_of_the_map();
+        if (plan_.uncertain() || plan_.solve == algest::Solve::least_squares) derivatives_of_the_map();
     }
 
     /// The rows were divided by the leading coefficient: what they say of a perturbation is multiplied by it.

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string_view>
 #include <system_error>
@@ -78,7 +80,7 @@ Column header_column(const std::string& text, int place, std::string& wrong) {
 /// Reads the rows of one file into a Recording.
 class Reader {
 public:
-    Reader(const std::string& path, Diagnostics& diagnostics) : complaints_(path, diagnostics), lines_(path, diagnostics) {
+    Reader(const std::string& path, Diagnostics& diagnostics, TimeBase time) : complaints_(path, diagnostics), lines_(path, diagnostics), time_base_(time) {
         recording_.file = path;
     }
 
@@ -200,8 +202,14 @@ private:
             return;
         }
         const TimeCheck check = check_uniform(t, written_);
-        if (!check.uniform) {
+        recording_.uniform = check.uniform.has_value();
+        if (!recording_.uniform && time_base_ == TimeBase::uniform) {
             complain_of(*check.uneven);
+            return;
+        }
+        const auto back = std::adjacent_find(t.begin(), t.end(), std::greater_equal<>());
+        if (back != t.end()) {
+            complain_of({static_cast<std::size_t>(back - t.begin()) + 1, back[1] - back[0], 0.0, 1});
             return;
         }
         const bool in_seconds = seconds_->scale == 1.0 && seconds_->offset == 0.0;
@@ -209,8 +217,9 @@ private:
         if (!in_seconds) {
             for (double& instant : recording_.t) instant = instant * seconds_->scale + seconds_->offset;
         }
-        recording_.period = check.uniform->period * seconds_->scale;
-        recording_.period_uncertainty = check.uniform->uncertainty * seconds_->scale;
+        const UniformTime mean = check.uniform.value_or(UniformTime{(t.back() - t.front()) / static_cast<double>(t.size() - 1), 0.0});
+        recording_.period = mean.period * seconds_->scale;
+        recording_.period_uncertainty = mean.uncertainty * seconds_->scale;
     }
 
     void complain_of(const UnevenStep& uneven) {
@@ -231,6 +240,7 @@ private:
 
     Complaints complaints_;
     TextLines lines_;
+    TimeBase time_base_;
     CsvRow row_;
     Recording recording_{};
     std::optional<std::size_t> time_;  ///< index of the column t
@@ -279,8 +289,8 @@ std::string Recording::column_names() const {
     return out;
 }
 
-std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics) {
-    return Reader(path, diagnostics).read();
+std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics, TimeBase time) {
+    return Reader(path, diagnostics, time).read();
 }
 
 std::optional<std::vector<double>> signal_values(const Recording& recording, const WantedSignal& wanted,

@@ -24,6 +24,7 @@ struct Recording {
     std::vector<double> t;        ///< s, increasing, uniform
     int time_place;               ///< character column of the header of t
     double period;                ///< s, mean step
+    bool uniform;                 ///< false only where TimeBase::increasing was asked for
     double period_uncertainty;    ///< s, from the digits in which t is written
 
     std::size_t samples() const { return t.size(); }
@@ -34,12 +35,15 @@ struct Recording {
 /// Complaints after which reading stops.
 constexpr int most_complaints = 20;
 
+/// What a recording's `t` has to be.
+enum class TimeBase { uniform, increasing };
+
 /// Reads the file. Accepted: UTF-8 with or without byte-order mark, LF or CRLF, quoted fields, blanks around fields, blank
 /// lines at the end, two rows or more. Refused with line and column: everything that is no plain finite number in a field,
-/// rows of another length than the header, columns of one name, a time that is not uniform (check_uniform) or has no unit
-/// of time, and what TextLines refuses. Nullopt if anything was refused.
+/// rows of another length than the header, columns of one name, a time that is not uniform (check_uniform), where that is asked for, or
+/// does not increase or has no unit of time, and what TextLines refuses. Nullopt if anything was refused.
 /// Cost: linear in the file; all columns are kept in memory, 8 bytes a value.
-std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics);
+std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics, TimeBase time = TimeBase::uniform);
 
 /// What a model says of a measured signal.
 struct WantedSignal {
