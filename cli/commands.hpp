@@ -54,7 +54,7 @@ struct ReplayOptions {
 int replay(const ReplayOptions& options);
 /// The same with all rows at once, where rows hold at single instants. 1: the recording does not determine all parameters. JSON: {"model",
 /// "recording", "samples", "uniform", "instants", "parameters": [{"name", "unit", "value", "sd"}], "condition", "correlated_instants",
-/// "not_identifiable": [{"unknowns", "text"}]}.
+/// "confused": [{"unknowns", "hardly", "text"}]}.
 int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch);
 
 struct SimulateOptions {

@@ -27,7 +27,7 @@ ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, co
                               {"sd", number_or_null(batch.parameters[p].deviation)}});
     }
     ordered_json confusions = ordered_json::array();
-    for (const lab::Confusion& c : batch.confusions) confusions.push_back({{"unknowns", c.unknowns}, {"text", c.text}});
+    for (const lab::Confusion& c : batch.confusions) confusions.push_back({{"unknowns", c.unknowns}, {"hardly", c.hardly}, {"text", c.text}});
     return {{"model", options.model},
             {"recording", options.recording},
             {"samples", batch.samples},
@@ -36,7 +36,7 @@ ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, co
             {"parameters", std::move(parameters)},
             {"condition", number_or_null(batch.condition)},
             {"correlated_instants", batch.memory},
-            {"not_identifiable", std::move(confusions)}};
+            {"confused", std::move(confusions)}};
 }
 
 std::string batch_text(const plan::Plan& plan, const lab::Batch& batch) {
@@ -48,7 +48,7 @@ std::string batch_text(const plan::Plan& plan, const lab::Batch& batch) {
         out += fmt::format("{:<{}}  {:>12}  {:>12}  {}\n", plan.parameters[p].name, width, text(batch.parameters[p].value), text(batch.parameters[p].deviation), plan.parameters[p].unit);
     }
     out += fmt::format("\n{} samples, rows of {} instants; condition {:.6g}; residuals correlated over {:.3g} instants\n", batch.samples, batch.instants, batch.condition, batch.memory);
-    for (const lab::Confusion& c : batch.confusions) out += "not identifiable from this recording: " + c.text + "\n";
+    for (const lab::Confusion& c : batch.confusions) out += (c.hardly ? "hardly identifiable from this recording: " : "not identifiable from this recording: ") + c.text + "\n";
     return out;
 }
 
@@ -65,7 +65,7 @@ int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch) {
     print_diagnostics(diagnostics);
     if (options.json) print_json(batch_json(options, *plan, *batch));
     else print(batch_text(*plan, *batch));
-    return batch->confusions.empty() ? exit_done : exit_no;
+    return batch->determined() ? exit_done : exit_no;
 }
 
 }  // namespace algest::cli

@@ -28,6 +28,7 @@ struct Signal {
     std::optional<Rational> min;
     std::optional<Rational> max;
     bool scored = true;
+    int lag = 0;                      ///< periods by which its sensor is late; estimators let the other signals wait
 };
 
 struct Constant {
@@ -100,6 +101,12 @@ struct Estimator {
     bool has_window() const { return functional == Functional::annihilator; }
 };
 
+/// [filter]: no estimator, a block that filters signals on their own.
+struct Filter {
+    Position at;
+    std::vector<int> signals;   ///< indices, in the order of the file
+};
+
 struct Model {
     std::string path;
     std::string name;
@@ -120,6 +127,7 @@ struct Model {
     std::vector<Equation> equations;  ///< a [transfer] is written out as one
     std::vector<Feedback> feedback;
     Estimator estimator;
+    std::optional<Filter> filter;     ///< then there are no equations and nothing to estimate
 
     const Signal* signal(const std::string& name) const;
     const Constant* constant(const std::string& name) const;
@@ -137,6 +145,7 @@ constexpr int largest_kappa = 8;
 constexpr int largest_row = 40;
 constexpr int most_intervals = 1000000;
 constexpr int largest_decimation = 10000;
+constexpr int largest_lag = 1000;
 
 /// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.
 /// With strict, a missing unit is an error instead of a warning.

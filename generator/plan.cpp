@@ -16,6 +16,7 @@
 #include "generator/model.hpp"
 #include "generator/names.hpp"
 #include "generator/noise_channels.hpp"
+#include "generator/planner.hpp"
 #include "generator/row_choice.hpp"
 #include "generator/row_functional.hpp"
 #include "generator/row_weight.hpp"
@@ -170,6 +171,9 @@ private:
                                     signal.min ? exact::nearest(*signal.min, plan_.scalar) : -infinity,
                                     signal.max ? exact::nearest(*signal.max, plan_.scalar) : infinity, differentiated.count(s) > 0});
         }
+        int latest = 0;
+        for (const int s : used) latest = std::max(latest, model_.signals[static_cast<std::size_t>(s)].lag);
+        for (const int s : used) plan_.inputs[static_cast<std::size_t>(input_of_signal_[static_cast<std::size_t>(s)])].wait = latest - model_.signals[static_cast<std::size_t>(s)].lag;
     }
 
     void collect_differentiated(const formula::Formula& f, std::set<int>& out) const {
@@ -406,7 +410,8 @@ private:
         const std::size_t rings = static_cast<std::size_t>(plan_.rings());
         const std::size_t most = std::max({plan_.tables.size(), rings, plan_.rows.size(), plan_.lumped.size(), plan_.noise.size(), terms});
         const double unknowns = static_cast<double>(plan_.lumped.size());
-        const double scalars = std::max(2.0 * static_cast<double>(rings) * (plan_.samples() + plan_.kept),
+        const double waiting = (plan_.longest_wait() + 1.0) * static_cast<double>(plan_.inputs.size());
+        const double scalars = waiting + std::max(2.0 * static_cast<double>(rings) * (plan_.samples() + plan_.kept),
                                         std::max((plan_.solve_instants + 5.0) * (unknowns + 1) * (unknowns + 2) / 2, static_cast<double>(plan_.tables.size()) * plan_.samples()));
         if (most < 65535 && scalars < 2e8) return true;
         diagnostics_.error(model_.path, model_.sampling_at, "the estimator is too large: " + std::to_string(terms) + " terms, arrays of up to " + std::to_string(static_cast<long>(scalars)) + " numbers",
@@ -433,6 +438,7 @@ private:
 bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics) {
     const auto model = model::read(path, strict, diagnostics);
     if (!model) return false;
+    if (model->filter) return !diagnostics.failed();
     if (!model->parameters.empty() && model->period && (model->window || !model->estimator.has_window())) {   // an estimator follows, or it is said why not
         PlanOptions options;
         options.weights = false;
@@ -450,10 +456,8 @@ bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics)
     return !diagnostics.failed();
 }
 
-std::optional<plan::Plan> plan_from_model(const std::string& path, const PlanOptions& options, Diagnostics& diagnostics) {
-    const auto model = model::read(path, false, diagnostics);
-    if (!model) return std::nullopt;
-    auto plan = Planner(*model, options, diagnostics).run();
+std::optional<plan::Plan> plan_of(const model::Model& model, const PlanOptions& options, Diagnostics& diagnostics) {
+    auto plan = Planner(model, options, diagnostics).run();
     return diagnostics.failed() ? std::nullopt : plan;
 }
 

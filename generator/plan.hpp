@@ -26,6 +26,7 @@ struct Input {
     double min;            ///< samples outside [min, max] are rejected; infinite: no limit
     double max;
     bool differentiated;   ///< a parabola filter runs on it
+    int wait = 0;          ///< samples that it waits for the sensor that is latest
 };
 
 /// What one ring holds: an input, or something computed from inputs sample by sample.
@@ -178,10 +179,15 @@ struct Plan {
     /// That are estimated; perturbations stand behind them.
     int estimated() const { return static_cast<int>(parameters.size() - perturbation.size()); }
     bool uncertain() const { return !noise.empty(); }
-    /// From a start or restart: the window, the instants of S(t), the samples that a first mean and a delayed model need before.
+    int longest_wait() const {
+        int longest = 0;
+        for (const Input& i : inputs) longest = i.wait > longest ? i.wait : longest;
+        return longest;
+    }
+    /// From a start or restart: the window, the instants of S(t), the samples that a first mean, a delayed model and a late sensor need before.
     int samples_to_first_estimate() const {
         const int instants = samples() + (solve_instants > 0 ? solve_instants - 1 : 0);
-        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0);
+        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0) + longest_wait();
     }
     bool delayed() const {
         for (const WindowSignal& s : window_signals) if (s.delayed) return true;

@@ -32,7 +32,11 @@ bool check(const plan::Plan& plan, const Recording& recording, RowRange rows, Di
     if (plan.functional != plan::Functional::derivative || plan.solve != Solve::least_squares) {
         diagnostics.error(plan.name, {}, "a batch is for rows of single instants", "functional = \"derivative\" and solve = \"least_squares\" in the model, or replay without --batch");
     }
-    if (rows.size() < 3) diagnostics.error(recording.file, {static_cast<int>(rows.end) + 1, 1}, fmt::format("{} samples, and the parabola filter needs three", rows.size()), "a longer stretch");
+    const std::size_t needed = 3 + static_cast<std::size_t>(plan.longest_wait());
+    if (rows.size() < needed) diagnostics.error(recording.file, {static_cast<int>(rows.end) + 1, 1}, fmt::format("{} samples, and the parabola filter needs {}", rows.size(), needed), "a longer stretch");
+    if (plan.longest_wait() > 0 && !recording.uniform) {
+        diagnostics.error(recording.file, {1, recording.time_place}, "the steps of `t` differ, and a `lag` counts equal ones", "steps that are equal, or signals without lag");
+    }
     if (plan.intervals > 0 && !recording.uniform) {
         diagnostics.error(recording.file, {1, recording.time_place}, "the steps of `t` differ, and what a held signal does between them is not known",
                           "steps that are equal, or hold = \"linear\" for the signals of the model");
@@ -41,8 +45,8 @@ bool check(const plan::Plan& plan, const Recording& recording, RowRange rows, Di
 }
 
 /// Instants of the filter: multiples of the period where steps are equal, since their decimals would be noise.
-std::vector<double> instants(const Recording& recording, RowRange rows) {
-    std::vector<double> t(recording.t.begin() + static_cast<std::ptrdiff_t>(rows.begin), recording.t.begin() + static_cast<std::ptrdiff_t>(rows.end));
+std::vector<double> instants(const plan::Plan& plan, const Recording& recording, RowRange rows) {
+    std::vector<double> t(recording.t.begin() + static_cast<std::ptrdiff_t>(rows.begin), recording.t.begin() + static_cast<std::ptrdiff_t>(rows.end) - plan.longest_wait());
     if (recording.uniform) for (std::size_t k = 0; k < t.size(); ++k) t[k] = static_cast<double>(k) * recording.period;
     return t;
 }
@@ -52,7 +56,8 @@ MatrixXd ring_values(const plan::Plan& plan, const std::vector<std::vector<doubl
     std::vector<std::vector<double>> samples;
     std::vector<std::vector<double>> derivatives(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-        samples.emplace_back(inputs[i].begin() + static_cast<std::ptrdiff_t>(rows.begin), inputs[i].begin() + static_cast<std::ptrdiff_t>(rows.end));
+        const auto first = inputs[i].begin() + static_cast<std::ptrdiff_t>(rows.begin) + plan.longest_wait() - plan.inputs[i].wait;
+        samples.emplace_back(first, first + static_cast<std::ptrdiff_t>(t.size()));
         if (plan.inputs[i].differentiated) derivatives[i] = parabola_derivative(t, samples[i]).derivative;
     }
     MatrixXd out(plan.rings(), static_cast<Eigen::Index>(t.size()));
@@ -174,9 +179,9 @@ std::string plus(double factor, const std::string& name) {
     return fmt::format(" {} {}{}", factor < 0.0 ? "-" : "+", size == "1" ? "" : size + "*", name);
 }
 
-/// The undetermined directions, each in as few unknowns as may be: scaled unknowns, one direction a row, by elimination with the largest pivots.
-MatrixXd sparse_directions(const Decomposition& d) {
-    MatrixXd out = d.right.rightCols(d.right.cols() - d.rank).transpose();
+/// Directions spanned by the columns of `of`, each in as few unknowns as may be: one a row, by elimination with the largest pivots.
+MatrixXd sparse_directions(const MatrixXd& of) {
+    MatrixXd out = of.transpose();
     for (Eigen::Index r = 0; r < out.rows(); ++r) {
         Eigen::Index row = 0;
         Eigen::Index column = 0;
@@ -188,27 +193,31 @@ MatrixXd sparse_directions(const Decomposition& d) {
     return out;
 }
 
-/// An entry of a direction below this is rounding and noise: what it stands for is determined.
+/// An entry of an undetermined direction below this is rounding and noise: what it stands for is determined.
 constexpr double negligible = 1e-2;
+/// Of a direction that is hardly determined: what takes part in it by less than this does so by chance.
+constexpr double small = 0.2;
 
-Confusion confusion(const plan::Plan& plan, const Decomposition& d, const MatrixXd& of_solution, const Eigen::RowVectorXd& direction) {
-    Confusion out;
+Confusion confusion(const plan::Plan& plan, const Decomposition& d, const MatrixXd& of_solution, const Eigen::RowVectorXd& direction, bool hardly) {
+    Confusion out{hardly, {}, {}};
+    const std::string apart = hardly ? "can hardly be told apart" : "cannot be told apart";
+    const std::string throughout = hardly ? "almost throughout" : "throughout";
     std::vector<Eigen::Index> involved;
     for (Eigen::Index u = 0; u < direction.size(); ++u) {
-        if (std::abs(direction(u)) < negligible * direction.cwiseAbs().maxCoeff()) continue;
+        if (std::abs(direction(u)) < (hardly ? small : negligible) * direction.cwiseAbs().maxCoeff()) continue;
         involved.push_back(u);
         out.unknowns.push_back(plan.lumped[static_cast<std::size_t>(u)].meaning);
     }
     if (involved.size() == 1) {
-        out.text = fmt::format("{}: what it multiplies, {}, is zero or almost throughout", out.unknowns[0], regressor(plan, involved[0]));
+        out.text = fmt::format("{}: what it multiplies, {}, is {}", out.unknowns[0], regressor(plan, involved[0]), hardly ? "nearly a sum of the others" : "zero throughout");
     } else if (involved.size() == 2) {
         const Eigen::Index a = involved[0];
         const Eigen::Index b = involved[1];
         const double ratio = -direction(a) * d.norm(b) / (direction(b) * d.norm(a));   // of the second column to the first
         const double value = d.solution(a) + ratio * d.solution(b);
         const double sd = std::sqrt(std::max(0.0, of_solution(a, a) + 2.0 * ratio * of_solution(a, b) + ratio * ratio * of_solution(b, b)));
-        out.text = fmt::format("{} and {} cannot be told apart: {} is {:.4g} times {} throughout; determined is {}{} = {:.4g}, sd {:.2g}", out.unknowns[0], out.unknowns[1],
-                               regressor(plan, b), ratio, regressor(plan, a), out.unknowns[0], plus(ratio, out.unknowns[1]), value, sd);
+        out.text = fmt::format("{} and {} {}: {} is {:.3g} times {} {}; determined is {}{} = {:.4g}, sd {:.2g}", out.unknowns[0], out.unknowns[1], apart,
+                               regressor(plan, b), ratio, regressor(plan, a), throughout, out.unknowns[0], plus(ratio, out.unknowns[1]), value, sd);
     } else {
         std::string names;
         std::string sum;
@@ -217,7 +226,7 @@ Confusion confusion(const plan::Plan& plan, const Decomposition& d, const Matrix
             const double part = direction(involved[i]) / d.norm(involved[i]) * d.norm(involved[0]) / direction(involved[0]);
             sum += i == 0 ? "(" + regressor(plan, involved[i]) + ")" : plus(part, "(" + regressor(plan, involved[i]) + ")");
         }
-        out.text = fmt::format("{} cannot be told apart: {} is zero or almost throughout", names, sum);
+        out.text = fmt::format("{} {}: {} is zero {}", names, apart, sum, throughout);
     }
     return out;
 }
@@ -254,7 +263,7 @@ std::optional<Batch> batch(const plan::Plan& plan, const Recording& recording, c
     const RowRange rows = rows_of(recording, stretch);
     std::vector<std::vector<double>> inputs;
     if (!check(plan, recording, rows, diagnostics) || !read_inputs(plan, recording, inputs, diagnostics)) return std::nullopt;
-    const Stack all = stack(plan, ring_values(plan, inputs, instants(recording, rows), rows));
+    const Stack all = stack(plan, ring_values(plan, inputs, instants(plan, recording, rows), rows));
     const Eigen::Index unknowns = static_cast<Eigen::Index>(plan.lumped.size());
     if (all.p.rows() < unknowns || !all.p.allFinite() || !all.q.allFinite()) {
         diagnostics.error(recording.file, {1, 1}, fmt::format("{} rows for {} unknowns", all.p.allFinite() ? all.p.rows() : 0, unknowns), "a longer stretch, and formulas that are finite on it");
@@ -267,8 +276,11 @@ std::optional<Batch> batch(const plan::Plan& plan, const Recording& recording, c
     const MatrixXd of_solution = covariance(all, d, out.memory);
     const Mapped mapped = map_parameters(plan, d.solution);
     for (Eigen::Index p = 0; p < plan.estimated(); ++p) out.parameters.push_back(parameter(mapped, p, d, of_solution));
-    const MatrixXd open = sparse_directions(d);
-    for (Eigen::Index r = 0; r < open.rows(); ++r) out.confusions.push_back(confusion(plan, d, of_solution, open.row(r)));
+    const MatrixXd open = sparse_directions(d.right.rightCols(unknowns - d.rank));
+    for (Eigen::Index r = 0; r < open.rows(); ++r) out.confusions.push_back(confusion(plan, d, of_solution, open.row(r), false));
+    for (Eigen::Index i = 0; i < d.rank; ++i) {
+        if (d.singular(0) > dependent_columns * d.singular(i)) out.confusions.push_back(confusion(plan, d, of_solution, d.right.col(i).transpose(), true));
+    }
     return out;
 }
 

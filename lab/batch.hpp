@@ -20,8 +20,9 @@ struct BatchParameter {
     std::optional<double> deviation;   ///< standard deviation, from the residuals
 };
 
-/// Unknowns that the recording cannot tell apart, in words: which, why, and what is determined instead.
+/// Unknowns that the recording cannot tell apart, or hardly, in words: which, why, and what is determined instead.
 struct Confusion {
+    bool hardly;                              ///< they have values, with large deviations
     std::vector<std::string> unknowns;
     std::string text;
 };
@@ -33,10 +34,17 @@ struct Batch {
     std::vector<BatchParameter> parameters;   ///< as plan.parameters
     double condition;                         ///< spectral, of the rows with columns of norm 1; infinity: singular
     double memory;                            ///< instants over which the residuals count as correlated
-    std::vector<Confusion> confusions;        ///< empty: all is determined
+    std::vector<Confusion> confusions;        ///< those that cannot first
+
+    /// Every parameter has a value.
+    bool determined() const { return confusions.empty() || confusions.front().hardly; }
 };
 
-/// Directions of the unknowns in which the rows, columns at norm 1, change less than 1/condition_limit of the most are undetermined.
+/// Belsley, Kuh, Welsch: columns of norm 1 whose condition is above 30 nearly depend on each other.
+constexpr double dependent_columns = 30.0;
+
+/// Directions of the unknowns in which the rows, columns at norm 1, change less than 1/condition_limit of the most are undetermined; below
+/// 1/dependent_columns hardly determined.
 /// Standard deviations are those of Newey and West (Bartlett weights), with Andrews' choice of how many instants count: residuals of derivative
 /// rows are correlated by the filter, those of a model that misses an effect far longer.
 /// Nullopt, and errors in `diagnostics`, if the plan is another than derivative rows and least squares, a column does not fit, the stretch is

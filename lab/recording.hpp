@@ -24,7 +24,7 @@ struct Recording {
     std::vector<double> t;        ///< s, increasing, uniform
     int time_place;               ///< character column of the header of t
     double period;                ///< s, mean step
-    bool uniform;                 ///< false only where TimeBase::increasing was asked for
+    bool uniform = true;          ///< false only where TimeBase::increasing was asked for
     double period_uncertainty;    ///< s, from the digits in which t is written
 
     std::size_t samples() const { return t.size(); }
