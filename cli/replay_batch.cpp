@@ -57,7 +57,7 @@ std::string batch_text(const plan::Plan& plan, const lab::Batch& batch) {
 int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch) {
     Diagnostics diagnostics;
     const auto plan = generator::plan_from_model(options.model, {}, diagnostics);
-    const auto recording = lab::read_recording(options.recording, diagnostics, lab::TimeBase::increasing);
+    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv, lab::TimeBase::increasing);
     if (!plan || !recording) return fail(diagnostics, options.json);
     const auto batch = lab::batch(*plan, *recording, stretch, diagnostics);
     if (!batch) return fail(diagnostics, options.json);
