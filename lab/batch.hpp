@@ -4,13 +4,13 @@
 #pragma once
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "generator/diagnostics.hpp"
 #include "generator/plan.hpp"
+#include "lab/confusion.hpp"
 #include "lab/recording.hpp"
-#include "lab/replay.hpp"
+#include "lab/stretch.hpp"
 
 namespace algest::lab {
 
@@ -18,13 +18,6 @@ namespace algest::lab {
 struct BatchParameter {
     std::optional<double> value;
     std::optional<double> deviation;   ///< standard deviation, from the residuals
-};
-
-/// Unknowns that the recording cannot tell apart, or hardly, in words: which, why, and what is determined instead.
-struct Confusion {
-    bool hardly;                              ///< they have values, with large deviations
-    std::vector<std::string> unknowns;
-    std::string text;
 };
 
 struct Batch {
@@ -39,9 +32,6 @@ struct Batch {
     /// Every parameter has a value.
     bool determined() const { return confusions.empty() || confusions.front().hardly; }
 };
-
-/// Belsley, Kuh, Welsch: columns of norm 1 whose condition is above 30 nearly depend on each other.
-constexpr double dependent_columns = 30.0;
 
 /// Directions of the unknowns in which the rows, columns at norm 1, change less than 1/condition_limit of the most are undetermined; below
 /// 1/dependent_columns hardly determined.

@@ -115,7 +115,7 @@ private:
             refuse("the unit " + quoted(*t.unit) + " of `t` is not one of time", "units.t = \"s\"");
             return false;
         }
-        const TimeCheck check = check_time(t.values, {0, digits_of_a_double}, time_base_);
+        const TimeCheck check = algest::lab::check_time(t.values, {0, digits_of_a_double}, time_base_);
         if (!check.uniform) {
             const UnevenStep& u = *check.uneven;
             refuse(fmt::format("`t` is not uniform: a step of {:.6g} {} at t({}), {:.6g} {} elsewhere", u.step, *t.unit, u.row + 1, u.period, *t.unit), "equal steps, that increase");

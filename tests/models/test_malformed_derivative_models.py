@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Models with functional = "derivative" that are refused: exit 2, at the right line and column (the mark ▸); and what stands in the way of a batch."""
+import json
 import unittest
 
 from model_case import ModelCase, complaints, without_marks
@@ -56,7 +57,16 @@ class MalformedDerivative(ModelCase):
         self.write(MODEL.encode())
         self.assertEqual(self.run_algest("check", "m.toml")[:2], (0, "m.toml: ok\n"))
         self.assertEqual(self.run_algest("derive", "m.toml", "--format", "latex")[0], 0)
-        self.assertEqual(self.run_algest("derive", "m.toml", "--format", "json", "--weights")[0], 0)
+        code, out, err, _ = self.run_algest("derive", "m.toml", "--format", "json", "--weights")
+        self.assertEqual(code, 0, err)
+        (row,) = json.loads(out)["equations"][0]["rows"]
+        terms = {(t["parameter"], t["signal"]): (t["kernel"], t["weights"], t["derivative"]) for t in row["terms"]}
+        self.assertEqual(terms, {("L", "der(i)"): ([], ["0x1p+0"], 0), ("R", "i"): ([], ["0x1p+0"], 0), (None, "v"): ([], ["0x1p+0"], 0)})
+
+        self.write(MODEL.replace('v = { unit = "V" }', 'v = { unit = "V", hold = "zoh" }').encode())
+        (row,) = json.loads(self.run_algest("derive", "m.toml", "--format", "json", "--weights")[1])["equations"][0]["rows"]
+        self.assertEqual({t["signal"]: t["weights"] for t in row["terms"]},   # the mean of both sides of the jump
+                         {"der(i)": ["0x0p+0", "0x1p+0"], "i": ["0x0p+0", "0x1p+0"], "v": ["0x1p-1", "0x1p-1"]})
 
     def test_each_is_refused_at_its_place(self):
         for name, text, words in texts():
