@@ -352,6 +352,7 @@ VALUES = [
     ("formula with a parameter", computed("▸R*i"), "a parameter in a computed signal"),
     ("formula of a computed signal", computed("2*▸p"), "is computed too"),
     ("formula of another unit", computed("▸i"), "differ"),
+    ("a computed signal under the parabola filter", changed(coil('v = { unit = "V" }', 'v = { unit = "V" }\n▸q2 = { unit = "A", formula = "2*i" }'), "L*der(i) = gain*v - R*i", "L*der(i) = gain*v - R*i + L*0.001*sgn(der(q2))*der(i)"), "runs on measured signals"),
     ("empty formula", coil('v = { unit = "V" }', 'v = { unit = "V" }\np = { unit = "V", formula = ▸"" }'), "an empty formula"),
     ("formula beside a column", coil('v = { unit = "V" }', 'v = { unit = "V" }\np = { unit = "V", formula = "v", column = ▸"c" }'), "column beside formula"),
     ("drift of zero", coil('v = { unit = "V" }', 'v = { unit = "V", steady = ▸0 }'), "not positive"),
