@@ -228,7 +228,7 @@ void set_steady(const Plan& plan, Data& d) {
         const plan::Averaged& a = steady.averaged[k];
         Data q;
         q.set("value", tape.results()[k]);
-        q.set("tolerance", std::isfinite(a.tolerance) ? literal(a.tolerance, plan) : std::string("std::numeric_limits<Scalar>::infinity()"));
+        q.set("tolerance", std::isfinite(a.tolerance) ? literal(a.tolerance, plan.scalar) : std::string("std::numeric_limits<Scalar>::infinity()"));
         q.set("what", a.name + " " + unit_text(a.unit));
         quantities.push_back(q);
     }
