@@ -31,6 +31,7 @@ struct Signal {
     std::string formula_text;         ///< of a signal that is computed from measured ones; empty: it is measured
     formula::Formula formula;
     std::optional<Rational> steady;   ///< largest spread of its means over the quarters of a steady block, in the unit
+    int lag = 0;                      ///< periods by which its sensor is late; estimators let the other signals wait
 };
 
 struct Constant {
@@ -106,6 +107,15 @@ struct Estimator {
     Mention stretches;                      ///< average: the signal that numbers the stretches to be averaged; no name: steady ones are looked for
     std::string engine = "fir";
     plan::Quadrature quadrature = plan::Quadrature::exact;
+
+    /// True: rows are integrals or means over [sampling] window. False: an equation has one row an instant.
+    bool has_window() const { return functional != Functional::derivative; }
+};
+
+/// [filter]: no estimator, a block that filters signals on their own.
+struct Filter {
+    Position at;
+    std::vector<int> signals;   ///< indices, in the order of the file
 };
 
 struct Model {
@@ -128,6 +138,7 @@ struct Model {
     std::vector<Equation> equations;  ///< a [transfer] is written out as one
     std::vector<Feedback> feedback;
     Estimator estimator;
+    std::optional<Filter> filter;     ///< then there are no equations and nothing to estimate
 
     const Signal* signal(const std::string& name) const;
     const Constant* constant(const std::string& name) const;
@@ -145,6 +156,7 @@ constexpr int largest_kappa = 8;
 constexpr int largest_row = 40;
 constexpr int most_intervals = 1000000;
 constexpr int largest_decimation = 10000;
+constexpr int largest_lag = 1000;
 
 /// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.
 /// With strict, a missing unit is an error instead of a warning.

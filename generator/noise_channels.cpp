@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/parabola.hpp"
+
 namespace algest::generator {
 
 namespace {
@@ -30,6 +32,16 @@ bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Di
     return true;
 }
 
+/// What one operation that reads an input makes of an impulse, sample by sample from the impulse on.
+std::vector<Rational> response_of(plan::Op reads, const model::Model& model) {
+    if (reads == plan::Op::derivative) {
+        std::vector<Rational> out = parabola::impulse_response(parabola::Output::slope, parabola::memory);
+        for (Rational& h : out) h = h / *model.period;
+        return out;
+    }
+    return reads == plan::Op::previous && model.decimate == 1 ? std::vector<Rational>{0, 1} : std::vector<Rational>{1};
+}
+
 }  // namespace
 
 NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<int>& window_operations, plan::Scalar scalar,
@@ -42,19 +54,24 @@ NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& 
         // A mean over N samples has a deviation of sigma/sqrt(N), the halves of its ends aside.
         const Rational size = model.decimate == 1 ? *sigma : *sigma * *exact::function_value("sqrt", Rational(1) / model.decimate);
         for (std::size_t w = 0; w < window_operations.size(); ++w) {
-            if (tape.partial(window_operations[w], plan::Op::derivative, input) >= 0) return {{}, {}, model.signals[s].name};
-            for (const plan::Op reads : {plan::Op::input, plan::Op::previous}) {
+            if (model.decimate > 1 && tape.partial(window_operations[w], plan::Op::derivative, input) >= 0) return {{}, {}, model.signals[s].name};
+            for (const plan::Op reads : {plan::Op::input, plan::Op::previous, plan::Op::derivative}) {
                 const int partial = tape.partial(window_operations[w], reads, input);
                 if (partial < 0) continue;
                 const auto constant = tape.constant_value(partial);
-                const int lag = reads == plan::Op::previous && model.decimate == 1 ? 1 : 0;
-                plan::NoiseChannel channel{input, static_cast<int>(w), -1, lag, exact::nearest(constant ? *constant * size : size, scalar)};
+                plan::NoiseChannel channel{input, static_cast<int>(w), -1, 0, 0.0};
                 if (!constant) {
                     const auto known = std::find_if(out.partials.begin(), out.partials.end(), [&](const NoiseChannels::Partial& p) { return p.operation == partial; });
                     channel.partial = static_cast<int>(known - out.partials.begin());
                     if (known == out.partials.end()) out.partials.push_back({partial, static_cast<int>(w), input});
                 }
-                out.channels.push_back(channel);
+                const std::vector<Rational> response = response_of(reads, model);
+                for (std::size_t lag = 0; lag < response.size(); ++lag) {
+                    if (cln::zerop(response[lag])) continue;
+                    channel.lag = static_cast<int>(lag);
+                    channel.factor = exact::nearest((constant ? *constant * size : size) * response[lag], scalar);
+                    out.channels.push_back(channel);
+                }
             }
         }
     }
@@ -64,7 +81,7 @@ NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& 
 bool noise_suffices(const model::Model& model, const std::string& through_a_filter, plan::Plan& plan, Diagnostics& diagnostics) {
     const model::Estimator& e = model.estimator;
     if (!through_a_filter.empty()) {
-        const std::string what = "the noise of '" + through_a_filter + "' goes through the parabola filter into a window: its uncertainty is not known";
+        const std::string what = "the noise of '" + through_a_filter + "' goes through the parabola filter into means: its uncertainty is not known";
         if (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit) {
             diagnostics.error(model.path, e.at, what, "leave out uncertainty, whiten and deviation_limit, or the noise of that signal");
             return false;

@@ -128,6 +128,7 @@ std::string plan_hash(const plan::Plan& plan) {
     }
     hash.add(plan.deviation_limit);
     hash.add(plan.whiten);
+    if (plan.longest_wait() > 0) for (const plan::Input& i : plan.inputs) hash.add(i.wait);
     if (plan.whiten) for (const plan::Lumped& u : plan.lumped) hash.add(u.initial);
     add_elimination(plan, hash);
     if (plan.steady) {

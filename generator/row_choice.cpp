@@ -83,14 +83,14 @@ std::optional<std::vector<ChosenRow>> choose_rows(const model::Model& model, con
         if (rows.count) for (int p = 1; p <= *rows.count; ++p) chosen[e].push_back(p);
         for (std::size_t k = 0; k < chosen[e].size(); ++k) (void)matching.add(sees[e]);
         total += chosen[e].size();
-        const bool averaged = model.estimator.functional == model::Functional::average;   // a mean is one row
-        if (!rows.count && rows.list.empty() && !averaged) silent.push_back(e);
+        if (!rows.count && rows.list.empty()) silent.push_back(e);
     }
     // In turn over the equations that do not say, while each round still places a row.
     for (bool placed = true; placed;) {
         placed = false;
         for (const std::size_t e : silent) {
             if (matching.first_unmatched() < 0) break;
+            if (model.estimator.functional != model::Functional::annihilator && !chosen[e].empty()) continue;   // an instant, or a mean, is one row
             if (!matching.add(sees[e])) continue;
             chosen[e].push_back(static_cast<int>(chosen[e].size()) + 1);
             ++total;
