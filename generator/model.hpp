@@ -97,8 +97,8 @@ struct Estimator {
     std::string engine = "fir";
     plan::Quadrature quadrature = plan::Quadrature::exact;
 
-    /// True: rows are integrals over [sampling] window. False: an equation has one row an instant.
-    bool has_window() const { return functional == Functional::annihilator; }
+    /// True: rows come from [sampling] window. False: from single instants.
+    bool has_window() const { return functional != Functional::derivative; }
 };
 
 /// [filter]: no estimator, a block that filters signals on their own.
