@@ -3,6 +3,7 @@
 #include "lab/discover.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <cmath>
@@ -46,12 +47,22 @@ std::vector<std::string> effect_folders(const std::string& model) {
     return {(program / "../share/algest/models/effects").string(), (program / "../models/effects").string(), beside.string()};
 }
 
+/// Null where the data do not see it, for a number that is not finite is no JSON.
+ordered_json number_or_null(double x) { return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr); }
+
+ordered_json parameters_json(const std::vector<lab::NamedParameter>& parameters) {
+    ordered_json out = ordered_json::array();
+    for (const lab::NamedParameter& p : parameters) out.push_back({{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"sd", number_or_null(p.sd)}});
+    return out;
+}
+
 ordered_json effect_json(const lab::NamedEffect& effect) {
-    ordered_json parameters = ordered_json::array();
-    for (const lab::NamedParameter& p : effect.parameters) {
-        parameters.push_back({{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"sd", std::isfinite(p.sd) ? ordered_json(p.sd) : ordered_json(nullptr)}});
-    }
-    return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", std::move(parameters)}};
+    return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", parameters_json(effect.parameters)}};
+}
+
+ordered_json evidence_json(const lab::Evidence& e) {
+    return {{"step", e.step}, {"effect", e.effect}, {"equation", e.equation}, {"term", e.term}, {"strength", number_or_null(e.strength)}, {"validation", number_or_null(e.validation)},
+            {"gain", number_or_null(e.improvement)}, {"chosen", e.chosen}, {"rival", e.rival}};
 }
 
 ordered_json discovery_json(const lab::Discovery& d, const std::string& model_file, const std::string& patch_file, const std::string& report_file) {
@@ -62,6 +73,10 @@ ordered_json discovery_json(const lab::Discovery& d, const std::string& model_fi
     out["alternatives"] = d.alternatives;
     out["experiments"] = d.experiments;
     out["doubts"] = d.doubts;
+    out["evidence"] = ordered_json::array();
+    for (const auto& e : d.evidence) out["evidence"].push_back(evidence_json(e));
+    out["parameters_before"] = parameters_json(d.parameters_before);
+    out["parameters_after"] = parameters_json(d.parameters_after);
     out["where"] = ordered_json::array();
     for (const auto& w : d.where) out["where"].push_back({{"equation", w.equation}, {"share", w.share}, {"from_s", w.from_s}, {"to_s", w.to_s}, {"region", w.region}});
     out["outputs"] = ordered_json::array();
@@ -121,6 +136,16 @@ bool keeps_inputs(const OutputFiles& files, const DiscoverOptions& options, Diag
     return true;
 }
 
+/// Asked before the search, so that its work is not in vain: of the folder, or of the nearest one above that exists.
+bool can_hold_files(const std::string& directory, Diagnostics& diagnostics) {
+    std::error_code error;
+    std::filesystem::path there = std::filesystem::absolute(directory, error);
+    while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+    if (std::filesystem::is_directory(there, error) && ::access(there.c_str(), W_OK | X_OK) == 0) return true;
+    diagnostics.error(directory, {}, "no folder that can be written into", "choose another one for -o");
+    return false;
+}
+
 }  // namespace
 
 int discover(const DiscoverOptions& options) {
@@ -131,14 +156,15 @@ int discover(const DiscoverOptions& options) {
     if (diagnostics.has_errors()) return fail(diagnostics, options.json);
     const auto text = model::read_text(options.model, 1024 * 1024, diagnostics);
     const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);
-    const auto effects = lab::read_effects(effect_folders(options.model), diagnostics);
+    const auto folders = effect_folders(options.model);
+    const auto effects = lab::read_effects(folders, diagnostics);
     if (effects.empty() && !diagnostics.has_errors()) {
-        diagnostics.error("algest discover", {}, "no library of effects beside the program", "install algest, run build/algest, or put a folder `effects` beside the model");
+        diagnostics.error("algest discover", {}, fmt::format("no effects in {}", fmt::join(folders, ", nor in ")), "install algest, run build/algest, or put a folder `effects` beside the model");
     }
     if (!text || !recording || diagnostics.has_errors()) return fail(diagnostics, options.json);
 
     const OutputFiles files = output_files(options);
-    if (!keeps_inputs(files, options, diagnostics)) return fail(diagnostics, options.json);
+    if (!keeps_inputs(files, options, diagnostics) || !can_hold_files(options.directory, diagnostics)) return fail(diagnostics, options.json);
 
     const auto found = [&] {
         ProgressLine progress("discover");
@@ -151,16 +177,20 @@ int discover(const DiscoverOptions& options) {
     const std::string model_file = amended ? files.model : "";
     const std::string patch_file = amended ? files.patch : "";
     const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
-    std::error_code error;
-    std::filesystem::create_directories(options.directory, error);
-    const auto write = [&](const std::string& path, const std::string& content) { return lab::write_file(path, content, diagnostics); };
     const lab::ReportFiles named{options.model, options.recording, options.directory, model_file, patch_file, patch};
-    bool written = write(files.before, lab::run_csv(*model, *recording, found->before)) && write(files.after, lab::run_csv(*model, *recording, found->after));
-    if (written && amended) written = write(patch_file, patch) && write(model_file, found->model_text);
-    written = written && write(files.report, lab::report_html(*found, *model, *recording, named, lab::gnuplot, diagnostics));
-    if (written && amended && options.apply) written = write(options.model, found->model_text);   // the user's own file last, when all else stands
-    if (!written) return fail(diagnostics, options.json);
+    std::vector<lab::NewFile> written = {{files.before, lab::run_csv(*model, *recording, found->before)},
+                                         {files.after, lab::run_csv(*model, *recording, found->after)},
+                                         {files.report, lab::report_html(*found, *model, *recording, named, lab::gnuplot, diagnostics)}};
+    const bool applied = options.apply && found->verdict == lab::Verdict::named;
+    if (amended) written.insert(written.end(), {{patch_file, patch}, {model_file, found->model_text}});
+    if (amended && applied) written.push_back({options.model, found->model_text});
+    std::error_code error;
+    std::filesystem::create_directories(options.directory, error);   // where it cannot be, the files say so
+    if (!lab::write_files(written, diagnostics)) return fail(diagnostics, options.json);
+    if (!amended) for (const std::string& stale : {files.model, files.patch}) std::filesystem::remove(stale);   // of an earlier run, which this one takes back
     print_diagnostics(diagnostics);
+    if (applied) note("wrote the amended model into " + options.model);
+    else if (options.apply) note(fmt::format("--apply: the verdict is {}, so {} stays as it is", lab::name(found->verdict), options.model));
     if (options.json) print_json(discovery_json(*found, model_file, patch_file, files.report));
     else print(discovery_text(*found, files.report));
     return exit_done;

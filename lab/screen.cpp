@@ -21,6 +21,7 @@ constexpr double probe = 0.02;                    ///< of what drives an equatio
 constexpr double unsized_probe = 1e-3;            ///< where nothing tells its size, to begin with
 constexpr std::size_t lines_that_are_tried = 2;   ///< of each spectrum
 constexpr double price_of_a_scan = 1.5;   ///< a scan finds something in any noise
+constexpr double least_to_sharpen = 10;           ///< F statistic from which on a scanned value is worth placing between those of the scan
 constexpr std::size_t most_scanned_by_run = 16;
 constexpr double small_change = 0.02;             ///< of the outputs, that a probe of a parameter makes
 constexpr int most_probes = 4;
@@ -57,19 +58,21 @@ public:
             if (enters_what_was_added(binding)) continue;
             Candidate best{binding, 0, 0, 0, {}, {}};
             const std::vector<double> scans = effect.scans.empty() ? std::vector<double>{0.0} : effect.scans[0].spectrum ? lines(binding) : scan_values(effect.scans[0], counted_in(effect.scans[0], binding));
-            if (effect.rewrite != Rewrite::add_term) {   // rows do not see a state, and what equations share they see one by one
-                if (!effect.scans.empty()) best.scans = scans;
-                out.push_back(std::move(best));
-                continue;
-            }
-            for (const double scan : scans) {
+            // Rows do not see a state, and what equations share they see one by one; a scan's value they know better than a run that has gone astray.
+            const bool by_rows = effect.rewrite == Rewrite::add_term || (!effect.scans.empty() && effect.states.empty());
+            for (const double scan : by_rows ? scans : std::vector<double>()) {
                 Candidate c = weigh(binding, scan);
                 if (scans.size() > 1) c.strength /= price_of_a_scan;
                 if (c.strength > best.strength || c.strength < 0) best = std::move(c);
             }
             if (best.strength < 0) continue;
-            if (best.strength > 0 && !effect.scans.empty() && effect.scans[0].spectrum) best = sharpened(std::move(best));
-            if (best.strength == 0 && scans.size() > 1 && scans.size() <= most_scanned_by_run) best.scans = scans;
+            if (best.strength > 0 && !effect.scans.empty() && effect.scans[0].spectrum) {
+                const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
+                best = sharpened(std::move(best), -0.5 * width, 0.5 * width);
+            } else if (best.strength > least_to_sharpen && !effect.scans.empty() && effect.scans[0].fitted) {
+                best = sharpened(std::move(best), below(scans, best.scan) - best.scan, above(scans, best.scan) - best.scan);
+            }
+            if (best.strength == 0 && !effect.scans.empty() && scans.size() <= most_scanned_by_run) best.scans = scans;
             out.push_back(std::move(best));
         }
         return out;
@@ -98,8 +101,10 @@ private:
         std::vector<double> start;
         for (const model::Parameter& p : model->parameters) {
             const int old = base_.model.parameter_index(p.name);
-            start.push_back(old >= 0 ? base_.fit.parameters[static_cast<std::size_t>(old)] : 0.0);
+            const auto added = std::find_if(a.names.begin(), a.names.end(), [&](const NewName& n) { return n.name == p.name; });
+            start.push_back(old >= 0 ? base_.fit.parameters[static_cast<std::size_t>(old)] : added != a.names.end() ? added->value : 0.0);
         }
+        const bool adds_terms = binding.effect->rewrite == Rewrite::add_term;
         // An effect that enters several equations at once is measured by the one that it explains least.
         for (const int intervals : weak_intervals(bench_.parts().fitted)) {
             double least = std::numeric_limits<double>::infinity();
@@ -108,11 +113,11 @@ private:
                 const std::string& where = base_.whole.equations[e].name;
                 const auto& before = without(where, intervals);
                 const auto with = weak_form(*model, recorded_, index_of(*model, where), bench_.parts().fitted, intervals);
-                if (with && before && with->coefficients.size() == before->terms && known_alone(*with, *model)) {
+                if (adds_terms && with && before && with->coefficients.size() == before->terms && known_alone(*with, *model)) {
                     out.strength = -1;   // the same product with a value that is declared known: that value is in doubt, not an effect missing
                     return out;
                 }
-                if (!before || !with || with->coefficients.size() == before->terms) {   // the product stands there: only a free run may tell
+                if (!before || !with || (adds_terms && with->coefficients.size() == before->terms)) {   // the product stands there: only a free run may tell
                     least = -1;
                     break;
                 }
@@ -171,10 +176,19 @@ private:
         return true;
     }
 
-    /// The frequency near a line at which the weak form explains most: golden section over half a line's width on both sides.
-    Candidate sharpened(Candidate c) {
-        const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
-        const double there = least_by_golden_section([&](double frequency) { return -weigh(c.binding, frequency).strength; }, c.scan - 0.5 * width, c.scan + 0.5 * width);
+    /// The scanned values on both sides of one.
+    static double below(const std::vector<double>& scans, double value) {
+        const auto at = std::find(scans.begin(), scans.end(), value);
+        return at == scans.begin() ? value : *(at - 1);
+    }
+    static double above(const std::vector<double>& scans, double value) {
+        const auto at = std::find(scans.begin(), scans.end(), value);
+        return at + 1 == scans.end() ? value : *(at + 1);
+    }
+
+    /// The value near a scanned one at which the weak form explains most: golden section over a stretch around it.
+    Candidate sharpened(Candidate c, double from, double to) {
+        const double there = least_by_golden_section([&](double value) { return -weigh(c.binding, value).strength; }, c.scan + from, c.scan + to);
         Candidate best = weigh(c.binding, there);
         best.strength /= price_of_a_scan;
         return best.strength > c.strength ? best : c;

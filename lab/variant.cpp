@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lab/largest_size.hpp"
 #include "lab/noise.hpp"
 #include "lab/weak_form.hpp"
 
@@ -16,6 +17,7 @@ constexpr double fit_share = 0.7;               ///< of the training rows are fi
 constexpr std::size_t least_train = 100;        ///< rows
 constexpr std::size_t least_test = 10;
 constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
+constexpr double finest_part = 1e-4;
 constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
 constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
@@ -33,6 +35,26 @@ void names_in(const formula::Formula& f, std::set<std::string>& out) {
 /// The rows of an equation that is not linear in a parameter take its initial value: that becomes what was fitted.
 void start_at_fit(Variant& v) {
     for (std::size_t p = 0; p < v.model.parameters.size(); ++p) if (std::isfinite(v.fit.parameters[p])) v.model.parameters[p].initial = exact::from_double(v.fit.parameters[p]);
+}
+
+/// der(x) = v.
+bool is_kinematic(const model::Model& model, const model::Equation& e) {
+    const auto is_rate = [](const formula::Formula& f) { return f->kind == formula::Kind::call && f->name == "der" && f->arguments.size() == 1; };
+    const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
+    return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
+}
+
+/// Of two signals that an amendment bends the difference of, how small that is beside them: so much finer the run has to be.
+double smallest_part(const std::vector<Amendment>& amendments, const model::Model& model, const Bench& bench) {
+    double out = 1;
+    for (const Amendment& a : amendments) {
+        for (const Substitution& s : a.substitutions) {
+            if (s.what[0] != '(') continue;
+            const std::string first = s.what.substr(1, s.what.find('-') - 1);
+            out = std::min(out, largest_size(s.what, model, bench) / largest_size(first, model, bench));
+        }
+    }
+    return std::max(out, finest_part);
 }
 
 int row_intervals(const Rows& rows) {
@@ -103,7 +125,7 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     drop_idle_kinematics(*model);
     auto ready = bench(*model, recording_, said);
     if (!ready) return std::nullopt;
-    ready->options.tolerance = search_tolerance;
+    ready->options.tolerance = search_tolerance * smallest_part(amendments, *model, *ready);
     ready->options.effort = &effort_;
     if (ready->system.driven.empty() && ready->system.laws.empty()) ready->options.stride = std::max<std::size_t>(1, parts_.train.size() / rows_of_an_undriven_run);
     return Variant{text, std::move(amendments), std::move(*model), whole, std::move(*ready), {}, {}};
@@ -203,8 +225,9 @@ Score Workbench::rows_score(const Variant& v) const {
     const std::vector<double> noise = noise_by_signal(v.model, v.bench);
     Score out;
     for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
+        if (is_kinematic(v.model, v.model.equations[e])) continue;   // a definition; every variant scores the same equations
         const auto form = weak_form(v.model, v.bench, e, parts_.validation, intervals);
-        if (!form || std::find(form->used.begin(), form->used.end(), true) == form->used.end()) continue;
+        if (!form) continue;
         const Eigen::VectorXd r = weak_residual(*form, v.fit.parameters);
         add(out, {r.data(), r.data() + r.size()}, driving_size(*form, v.fit.parameters), weak_noise(v.model, v.bench, e, parts_.validation, intervals, v.fit.parameters, noise));
     }
