@@ -12,6 +12,13 @@ namespace {
 
 using exact::Rational;
 
+/// How a tape reads an input.
+struct Reading {
+    plan::Op op;
+    int input;   ///< of the tape
+    int ago;     ///< samples
+};
+
 /// Every row has noise of its own, and the unknowns a value to start from.
 bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Diagnostics& diagnostics) {
     const Position at = model.estimator.at;
@@ -32,31 +39,36 @@ bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Di
     return true;
 }
 
-/// What one operation that reads an input makes of an impulse, sample by sample from the impulse on.
-std::vector<Rational> response_of(plan::Op reads, const model::Model& model) {
-    if (reads == plan::Op::derivative) {
+/// What a reading makes of an impulse, sample by sample from the impulse on.
+std::vector<Rational> response_of(const Reading& reading, const model::Model& model) {
+    if (reading.op == plan::Op::derivative) {
         std::vector<Rational> out = parabola::impulse_response(parabola::Output::slope, parabola::memory);
         for (Rational& h : out) h = h / *model.period;
         return out;
     }
-    return reads == plan::Op::previous && model.decimate == 1 ? std::vector<Rational>{0, 1} : std::vector<Rational>{1};
+    std::vector<Rational> out(static_cast<std::size_t>(reading.ago / model.decimate), 0);
+    out.push_back(1);
+    return out;
 }
 
 }  // namespace
 
-NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<int>& window_operations, plan::Scalar scalar,
-                             TapeBuilder& tape) {
+NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<plan::PastInput>& past,
+                             const std::vector<int>& window_operations, plan::Scalar scalar, TapeBuilder& tape) {
     NoiseChannels out;
+    const int inputs = static_cast<int>(std::count_if(input_of_signal.begin(), input_of_signal.end(), [](int i) { return i >= 0; }));
     for (std::size_t s = 0; s < model.signals.size(); ++s) {
         const auto& sigma = model.signals[s].noise;
         const int input = input_of_signal[s];
         if (input < 0 || !sigma || cln::zerop(*sigma)) continue;
         // A mean over N samples has a deviation of sigma/sqrt(N), the halves of its ends aside.
         const Rational size = model.decimate == 1 ? *sigma : *sigma * *exact::function_value("sqrt", Rational(1) / model.decimate);
+        std::vector<Reading> readings = {{plan::Op::input, input, 0}, {plan::Op::previous, input, 1}, {plan::Op::derivative, input, 0}};
+        for (std::size_t k = 0; k < past.size(); ++k) if (past[k].input == input) readings.push_back({plan::Op::input, inputs + static_cast<int>(k), past[k].samples});
         for (std::size_t w = 0; w < window_operations.size(); ++w) {
             if (model.decimate > 1 && tape.partial(window_operations[w], plan::Op::derivative, input) >= 0) return {{}, {}, model.signals[s].name};
-            for (const plan::Op reads : {plan::Op::input, plan::Op::previous, plan::Op::derivative}) {
-                const int partial = tape.partial(window_operations[w], reads, input);
+            for (const Reading& reading : readings) {
+                const int partial = tape.partial(window_operations[w], reading.op, reading.input);
                 if (partial < 0) continue;
                 const auto constant = tape.constant_value(partial);
                 plan::NoiseChannel channel{input, static_cast<int>(w), -1, 0, 0.0};
@@ -65,7 +77,7 @@ NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& 
                     channel.partial = static_cast<int>(known - out.partials.begin());
                     if (known == out.partials.end()) out.partials.push_back({partial, static_cast<int>(w), input});
                 }
-                const std::vector<Rational> response = response_of(reads, model);
+                const std::vector<Rational> response = response_of(reading, model);
                 for (std::size_t lag = 0; lag < response.size(); ++lag) {
                     if (cln::zerop(response[lag])) continue;
                     channel.lag = static_cast<int>(lag);

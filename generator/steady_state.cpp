@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "generator/delay.hpp"
 #include "generator/suggestion.hpp"
 
 namespace algest::generator {
@@ -36,6 +37,9 @@ std::optional<OperatorForm> in_steady_state(const model::Model& model, const mod
     if (const std::string key = meaningless_key(equation); !key.empty()) {
         return refuse("equation '" + equation.name + "' asks for " + key + ", and an operating point gives one mean of it", "leave it out with functional = \"average\"");
     }
+    std::vector<model::Delay> delays;
+    for (const formula::Formula& side : {equation.sides.left, equation.sides.right}) model::add_delays(model, side, delays);
+    if (!delays.empty()) return refuse("a delay in equation '" + equation.name + "': in a steady state a delayed signal is the signal", "write it without delay()");
     const auto atom = [&](const equation::Factor& factor) -> const Atom& { return form.atoms[static_cast<std::size_t>(factor.atom)]; };
     for (const Term& term : form.terms) {
         for (const equation::Factor& factor : term.product) {

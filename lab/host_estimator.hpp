@@ -9,6 +9,7 @@
 
 #include "algest/arithmetic.hpp"
 #include "algest/boxcar.hpp"
+#include "algest/delay_line.hpp"
 #include "algest/estimator.hpp"
 #include "algest/parabola_filter.hpp"
 #include "algest/steady_state.hpp"
@@ -27,6 +28,11 @@ public:
         : plan_(&plan),
           blueprint_(plan::make_blueprint<S>(plan)),
           delayed_(plan.delayed()),
+          lines_of_(plan.delayed_inputs()),
+          delay_length_(plan.delay_length()),
+          lines_(lines_of_.size() * size(delay_length_)),
+          newest_(lines_of_.size()),
+          all_inputs_(plan.inputs.size() + plan.past.size()),
           rings_(size(ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
           sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
           published_(size(published_scalars(blueprint_.solve, blueprint_.unknowns))),
@@ -76,6 +82,7 @@ public:
         solved_ = never;
         waiting_at_ = 0;
         waited_ = 0;
+        delay_ = {};
         status_ = Status::filling;
         condition_ = std::numeric_limits<S>::infinity();
         for (std::size_t k = 0; k < parameters_.size(); ++k) parameters_[k] = static_cast<S>(plan_->parameters[k].initial);
@@ -87,6 +94,7 @@ public:
         if (!acceptable(newest_sample)) return refuse();
         if (!align(newest_sample)) return algest::prime(memory());
         const S* inputs = aligned_.data();
+        if (!plan_->past.empty() && !look_back(inputs)) return algest::prime(memory());
         if (delayed_) {
             if (run_ == 0) {
                 remember(inputs);
@@ -97,18 +105,10 @@ public:
             run_ = 2;
         }
         if (plan_->steady) {
-            plan::evaluate<S>(plan_->steady->quantities, inputs, nullptr, nullptr, quantity_values_.data(), quantities_.data());
-            const int count = static_cast<int>(quantities_.size());
-            if (!all_finite(quantities_.data(), count)) return refuse();
-            const S stretch = plan_->steady->stretches < 0 ? S(1) : inputs[plan_->steady->stretches];
-            if (!average_steady(steady_.data(), point_, tolerance_.data(), count, plan_->steady->block, stretch, quantities_.data(), point_means_.data())) {
-                if (progress_.rejected != 0U) algest::prime(memory());
-                return;
-            }
-            ++points_;
+            if (!average_point(inputs)) return;
             inputs = point_means_.data();
         }
-        plan::evaluate(plan_->signals, inputs, previous_.data(), derivatives_.data(), signal_values_.data(),
+        plan::evaluate(plan_->signals, plan_->past.empty() ? inputs : all_inputs_.data(), previous_.data(), derivatives_.data(), signal_values_.data(),
                        signals_.data());
         if (!all_finite(signals_.data(), static_cast<int>(plan_->window_signals.size()))) return refuse();
         if (delayed_) remember(inputs);
@@ -211,6 +211,24 @@ private:
         return true;
     }
 
+    /// Takes a sample into the block; true when it ends a steady one, whose means are then the newest operating point.
+    bool average_point(const S* inputs) {
+        const plan::SteadyState& steady = *plan_->steady;
+        plan::evaluate<S>(steady.quantities, inputs, nullptr, nullptr, quantity_values_.data(), quantities_.data());
+        const int count = static_cast<int>(quantities_.size());
+        if (!all_finite(quantities_.data(), count)) {
+            refuse();
+            return false;
+        }
+        const S stretch = steady.stretches < 0 ? S(1) : inputs[steady.stretches];
+        if (average_steady(steady_.data(), point_, tolerance_.data(), count, steady.block, stretch, quantities_.data(), point_means_.data())) {
+            ++points_;
+            return true;
+        }
+        if (progress_.rejected != 0U) algest::prime(memory());
+        return false;
+    }
+
     /// True when every input is finite and inside its declared limits.
     bool acceptable(const S* inputs) const {
         for (std::size_t i = 0; i < plan_->inputs.size(); ++i) {
@@ -219,6 +237,19 @@ private:
             if (!within(inputs[i], static_cast<S>(input.min), static_cast<S>(input.max))) return false;
         }
         return true;
+    }
+
+    /// Sets all_inputs_ to the inputs and their past, and keeps the inputs; false until the lines are full.
+    bool look_back(const S* inputs) {
+        for (std::size_t i = 0; i < lines_of_.size(); ++i) newest_[i] = inputs[lines_of_[i]];
+        const bool full = delay_.filled == delay_length_;
+        for (std::size_t i = 0; i < plan_->inputs.size(); ++i) all_inputs_[i] = inputs[i];
+        for (std::size_t k = 0; full && k < plan_->past.size(); ++k) {
+            const std::size_t line = size(static_cast<int>(std::find(lines_of_.begin(), lines_of_.end(), plan_->past[k].input) - lines_of_.begin()));
+            all_inputs_[plan_->inputs.size() + k] = past_sample(lines_.data() + line * size(delay_length_), delay_length_, delay_, plan_->past[k].samples);
+        }
+        keep_samples(lines_.data(), static_cast<int>(lines_of_.size()), delay_length_, delay_, newest_.data());
+        return full;
     }
 
     /// Moves the parabola filters by one sample; they then stand at the sample before the newest.
@@ -245,6 +276,7 @@ private:
         run_ = 0;
         block_ = {};
         point_ = {};
+        delay_ = {};
     }
 
     /// Lumped -> parameters; false, and the parameters as they were, if one is not finite.
@@ -258,6 +290,12 @@ private:
     const plan::Plan* plan_;
     plan::BlueprintData<S> blueprint_;
     bool delayed_;
+    std::vector<int> lines_of_;    ///< inputs that have a delay line
+    int delay_length_;
+    std::vector<S> lines_;
+    std::vector<S> newest_;
+    std::vector<S> all_inputs_;    ///< inputs, then past ones
+    DelayProgress delay_{};
     int run_ = 0;  ///< delayed plans: samples accepted since the last restart, at most 2
     Progress progress_{};
     std::vector<S> rings_;

@@ -27,6 +27,7 @@ namespace generated {
 /// First `ok` at sample 6 (0.025 s) after a start or a refused sample at the earliest. Until then, and whenever the status is
 /// not `ok`, the last good values are held (at first the initial values of the model file); `status` says which it is.
 /// Rows hold at the sample before the newest, where the parabola filter has the derivatives: estimates are one sample late.
+/// Signals wait up to 4 samples for the sensor that is latest: estimates are as much later.
 ///
 /// Contract: no heap, no exceptions, no virtual calls, no loops whose length depends on data (libm's functions aside). Trivially
 /// copyable; instances are independent; tables are constant and shared. One thread or interrupt may call push() while another

@@ -107,7 +107,7 @@ class FilterBlock(unittest.TestCase):
         self.assertIn("= 0.485", text)
         self.assertIn("One sample, since sample k+1 is needed", text)
         # noise 1e-4 rad at 1 kHz: 0.564e-4 / 1e-3
-        self.assertRegex(text, r"\| theta \| 0.0001 \[rad\] \| 5.9e-05 \| 0.0564 \[rad/s\] \||\| theta \| 0.0001 \[rad\] \| 5.9e-05 \| 0.0564 \[")
+        self.assertRegex(text, r"\| theta \| 0.0001 \[rad\] \| 5.9e-05 \| 0.0564 \[[^\]]*\] \|")
         rows = re.findall(r"^\| (0\.\d\d) \| ([\d.]+) \| (-?[\d.]+) \| ([\d.]+) \| (-?[\d.]+) \|$", text, flags=re.MULTILINE)
         self.assertEqual(len(rows), 9)
         for f, value, value_phase, slope, slope_phase in rows:   # against the filter itself, fed with a cosine and a sine
@@ -118,11 +118,12 @@ class FilterBlock(unittest.TestCase):
                 response = complex(parts[0][column], parts[1][column]) * turned / (1 if column == 0 else 1j * omega)
                 self.assertAlmostEqual(abs(response), float(size), delta=6e-4)   # three printed decimals
                 if abs(response) > 1e-3:
-                    self.assertAlmostEqual(math.degrees(math.atan2(response.imag, response.real)) % 360, float(phase) % 360, delta=0.06)
+                    turn = math.degrees(math.atan2(response.imag, response.real)) - float(phase)
+                    self.assertLess(abs((turn + 180) % 360 - 180), 0.06)   # one printed decimal
 
     def test_what_a_filter_cannot_have(self):
         text = MODEL.read_text()
-        for change, said in ((("signals = [\"theta\"]", "signals = [\"tetha\"]"), "'tetha' is not a signal; did you mean 'theta'"),
+        for change, said in ((("signals = [\"theta\"]", "signals = [\"tetha\"]"), "'tetha' is not a signal"),
                              (("signals = [\"theta\"]", "signals = [\"theta\", \"theta\"]"), "listed twice"),
                              (("kind = \"parabola\"", "kind = \"median\""), "parabola"),
                              (("period = 1e-3", "# period = 1e-3"), "a filter needs the sampling period"),

@@ -65,7 +65,6 @@ class PmsmMechanical(unittest.TestCase):
         code, answer, said = replay(model, self.recording, "--batch")
         self.assertEqual(code, 0, said)
         found = values(answer, "value")
-        print({name: f"{found[name]:.6g}" for name in found})
         return max(abs(found[name] / TRUE[name] - 1) for name in names)
 
     def test_all_seven_parameters(self):
@@ -75,8 +74,9 @@ class PmsmMechanical(unittest.TestCase):
     def test_the_hold_of_the_voltages(self):
         linear = self.folder / "linear.toml"
         linear.write_text(MODEL.read_text().replace(', hold = "zoh"', ""))
-        held, not_held = self.worst(MODEL, ("L_se", "R_s")), self.worst(linear, ("L_se", "R_s"))
-        self.assertLess(held, not_held / 3)
+        # Half a sample of the voltages mixes L into R and back. What L keeps is the filter's error where the currents jump.
+        for name, gain in (("R_s", 10), ("L_se", 2)):
+            self.assertLess(self.worst(MODEL, (name,)), self.worst(linear, (name,)) / gain)
 
 
 if __name__ == "__main__":

@@ -61,12 +61,12 @@ class MalformedDerivative(ModelCase):
         self.assertEqual(code, 0, err)
         (row,) = json.loads(out)["equations"][0]["rows"]
         terms = {(t["parameter"], t["signal"]): (t["kernel"], t["weights"], t["derivative"]) for t in row["terms"]}
-        self.assertEqual(terms, {("L", "der(i)"): ([], ["0x1p+0"], 0), ("R", "i"): ([], ["0x1p+0"], 0), (None, "v"): ([], ["0x1p+0"], 0)})
+        self.assertEqual(terms, {("Gamma1", "v"): ([], ["-0x1p+0"], 0), ("Gamma2", "i"): ([], ["0x1p+0"], 0), (None, "der(i)"): ([], ["-0x1p+0"], 0)})
 
         self.write(MODEL.replace('v = { unit = "V" }', 'v = { unit = "V", hold = "zoh" }').encode())
         (row,) = json.loads(self.run_algest("derive", "m.toml", "--format", "json", "--weights")[1])["equations"][0]["rows"]
         self.assertEqual({t["signal"]: t["weights"] for t in row["terms"]},   # the mean of both sides of the jump
-                         {"der(i)": ["0x0p+0", "0x1p+0"], "i": ["0x0p+0", "0x1p+0"], "v": ["0x1p-1", "0x1p-1"]})
+                         {"der(i)": ["0x0p+0", "-0x1p+0"], "i": ["0x0p+0", "0x1p+0"], "v": ["-0x1p-1", "-0x1p-1"]})
 
     def test_each_is_refused_at_its_place(self):
         for name, text, words in texts():
@@ -107,7 +107,14 @@ class MalformedDerivative(ModelCase):
                 self.assertIn(words, err)
 
     def test_a_constant_signal_leaves_its_parameter_open(self):
-        code, out, err, _ = self.batch(MODEL, [(k * 0.001, 6, 2) for k in range(50)])
+        constant = [(k * 0.001, 6, 2) for k in range(50)]
+        code, out, err, _ = self.batch(MODEL, constant)
+        self.assertEqual(code, 1, err)   # 1/L*6 - R/L*2 = 0 is all that it says
+        self.assertIn("not identifiable from this recording: 1/L and R/L cannot be told apart: i is -0.333 times -v throughout; determined is 1/L - 0.3333*R/L = 0", out)
+        self.assertRegex(out, r"R +- +- +ohm")
+
+        two = MODEL.replace("[estimator]", '[[equation]]\node = "v = R*i"\n[estimator]')   # linear as written: no division
+        code, out, err, _ = self.batch(two, constant)
         self.assertEqual(code, 1, err)
         self.assertIn("not identifiable from this recording: L: what it multiplies, der(i), is zero throughout", out)
         self.assertRegex(out, r"R +3 ")

@@ -67,7 +67,7 @@ inline void propagate_noise(const RowSet<S>& set, const Noise<S>& noise, const S
         for (int u = 0; u < n; ++u) bias[u] = pending[u] = S(0);
     }
     const int span = set.samples + (instants < 1 ? 0 : instants - 1);
-    const int before = longest_lag(noise);
+    const int before = largest_lag(noise);
     for (int k = -before; k < span; ++k) {
         for (int s = 0; s < noise.inputs; ++s) {
             for (int i = 0; i < n * width; ++i) reach[i] = S(0);
