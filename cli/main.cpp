@@ -121,13 +121,13 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
 CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
     CLI::App* command = app.add_subcommand("discover", "Finds what a model misses, names it and writes it into the model");
     command->add_option("MODEL", options.model, "model file")->required();
-    command->add_option("RECORDING", options.recording, recording_text)
+    command->add_option("RECORDING", options.recordings, std::string(recording_text) + "; several: all of one machine")
         ->required();
     command->add_option("-o,--output", options.directory, "folder for the amended model, its patch, before.csv and after.csv")
         ->type_name("DIR")
         ->required();
-    command->add_option("--train", options.train, "seconds to fit and choose on; default: the first 70 percent")->type_name("A:B");
-    command->add_option("--test", options.test, "seconds to score on, once; default: the rest")->type_name("C:D");
+    command->add_option("--train", options.train, "seconds of each recording to fit and choose on; default: the first 70 percent")->type_name("A:B");
+    command->add_option("--test", options.test, "seconds of each recording to score on, once; default: the rest")->type_name("C:D");
     command->add_flag("--apply", options.apply, "write what was named into the model file itself");
     add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
@@ -137,6 +137,7 @@ CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
         "Exit code: 0 done, 2 a model or a file is at fault.\n\n"
         "Examples:\n"
         "  algest discover motor.toml run.csv -o found\n"
+        "  algest discover motor.toml slow.csv fast.csv -o found\n"
         "  algest discover motor.toml run.csv -o found --train 0:7 --test 7:10 --json");
     return command;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lab/noise.hpp"
+#include "lab/outputs.hpp"
 #include "lab/structure.hpp"
 #include "lab/weak_form.hpp"
 
@@ -44,13 +45,15 @@ bool declares_noise(const model::Signal& s) { return s.noise || s.resolution; }
 
 /// True when every error is as rough as a sensor's noise: then it is noise, however little was declared.
 bool white(const Score& score) {
-    return std::all_of(score.independent.begin(), score.independent.end(), [&](double n) { return n > share_of_white * score.rows; });
+    return std::all_of(score.independent.begin(), score.independent.end(), [&](const double& n) { return n > share_of_white * score.rows[static_cast<std::size_t>(&n - score.independent.data())]; });
 }
 
-/// The equations whose rows cannot be formed, for a signal of theirs is not measured.
+/// The equations of motion whose rows cannot be formed, for a signal of theirs is not measured.
 std::vector<std::string> unseen(const Variant& v) {
     std::vector<std::string> out;
-    for (std::size_t e = 0; e < v.model.equations.size(); ++e) if (!has_weak_form(v.model, v.bench, e)) out.push_back(v.model.equations[e].name);
+    for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
+        if (output_of(v.model, v.model.equations[e]) < 0 && !has_weak_form(v.model, v.bench, e)) out.push_back(v.model.equations[e].name);
+    }
     return out;
 }
 
@@ -119,16 +122,21 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
     return out;
 }
 
-bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics) {
+namespace {
+
+/// One recording.
+bool excited(const Workbench& bench, const Variant& nominal, std::size_t recording, Diagnostics& diagnostics) {
+    const Bench& own = bench_of(nominal, recording);
+    const std::string& file = bench.recording(recording).file;
     bool out = true;
     bool moves = false;
-    const std::vector<double> noise = noise_by_signal(nominal.model, nominal.bench);
-    for (const int s : scored_outputs(nominal.model, nominal.bench)) {
-        const std::vector<double>& x = nominal.bench.measured[static_cast<std::size_t>(s)];
+    const std::vector<double> noise = noise_by_signal(nominal.model, own);
+    for (const int s : scored_outputs(nominal.model, own)) {
+        const std::vector<double>& x = own.measured[static_cast<std::size_t>(s)];
         const model::Signal& signal = nominal.model.signals[static_cast<std::size_t>(s)];
         const auto [low, high] = std::minmax_element(x.begin(), x.end());
         if (*low == *high) {
-            diagnostics.error(bench.recording().file, {}, "column '" + signal.column + "' is " + fmt::format("{:.6g}", *low) + " from end to end", "record the signal '" + signal.name + "', or give it scored = false");
+            diagnostics.error(file, {}, "column '" + signal.column + "' is " + fmt::format("{:.6g}", *low) + " from end to end", "record the signal '" + signal.name + "', or give it scored = false");
             out = false;
         }
         double squares = 0;
@@ -136,9 +144,17 @@ bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagno
         moves = moves || std::sqrt(squares / static_cast<double>(x.size())) > 2 * noise[static_cast<std::size_t>(s)];
     }
     if (out && !moves) {
-        diagnostics.error(bench.recording().file, {}, "no output rises above its noise: the machine was not excited", "record it while its inputs move");
+        diagnostics.error(file, {}, "no output rises above its noise: the machine was not excited", "record it while its inputs move");
         return false;
     }
+    return out;
+}
+
+}  // namespace
+
+bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics) {
+    bool out = true;
+    for (std::size_t r = 0; r < bench.recordings(); ++r) out = excited(bench, nominal, r, diagnostics) && out;
     return out;
 }
 

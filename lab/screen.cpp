@@ -47,9 +47,13 @@ std::size_t index_of(const model::Model& model, const std::string& equation) {
 /// The weak residuals of the model as it is, by equation and window length: every candidate is compared with them.
 class Screen {
 public:
-    Screen(const Workbench& bench, const Variant& base) : bench_(bench), base_(base), recorded_(base.bench), measured_() {
-        for (const auto& m : base.bench.measured) measured_.push_back(!m.empty());
-        recorded_.measured.push_back(bench.recording().t);   // an amendment that brings a signal brings time, as the last
+    Screen(const Workbench& bench, const Variant& base) : bench_(bench), base_(base), measured_(base.bench.measured.size(), true) {
+        for (std::size_t r = 0; r < bench.recordings(); ++r) {
+            recorded_.push_back(bench_of(base, r));
+            for (std::size_t s = 0; s < measured_.size(); ++s) measured_[s] = measured_[s] && !recorded_[r].measured[s].empty();
+            recorded_[r].measured.push_back(bench.recording(r).t);   // an amendment that brings a signal brings time, as the last
+        }
+        for (std::size_t r = 0; r < bench.recordings(); ++r) with_time_.push_back({&recorded_[r], bench.parts(r).fitted});
     }
 
     std::vector<Candidate> of(const Effect& effect) {
@@ -112,7 +116,7 @@ private:
             for (const std::size_t e : binding.equations) {
                 const std::string& where = base_.whole.equations[e].name;
                 const auto& before = without(where, intervals);
-                const auto with = weak_form(*model, recorded_, index_of(*model, where), bench_.parts().fitted, intervals);
+                const auto with = weak_form(*model, with_time_, index_of(*model, where), intervals);
                 if (adds_terms && with && before && with->coefficients.size() == before->terms && known_alone(*with, *model)) {
                     out.strength = -1;   // the same product with a value that is declared known: that value is in doubt, not an effect missing
                     return out;
@@ -204,15 +208,16 @@ private:
         const auto known = before_.find(key);
         if (known != before_.end()) return known->second;
         std::optional<Before> out;
-        const auto form = weak_form(base_.model, base_.bench, index_of(base_.model, equation), bench_.parts().fitted, intervals);
+        const auto form = weak_form(base_.model, bench_.stretches(base_, &Parts::fitted), index_of(base_.model, equation), intervals);
         if (form) out = Before{weak_fit(*form, base_.fit.parameters), form->coefficients.size()};
         return before_.emplace(key, std::move(out)).first->second;
     }
 
     const Workbench& bench_;
     const Variant& base_;
-    Bench recorded_;   ///< of the base, with time
-    std::vector<bool> measured_;
+    std::vector<Bench> recorded_;        ///< of the base, with time, by recording
+    std::vector<BenchRows> with_time_;
+    std::vector<bool> measured_;         ///< by signal, in every recording
     std::map<std::pair<std::string, int>, std::optional<Before>> before_;
 };
 
@@ -223,7 +228,7 @@ namespace {
 /// The free run's error at the base's fit, without what its parameters could still take, and how far an effect would take it.
 class Slope {
 public:
-    Slope(Workbench& bench, const Variant& base) : bench_(bench), base_(base), at_{base.fit.parameters, {}, base.fit.initial, bench.parts().fitted} {
+    Slope(Workbench& bench, const Variant& base) : bench_(bench), base_(base), at_(bench.start_of(base, base, &Parts::fitted)) {
         residual_ = output_residual(base.model, base.bench, at_);
         const Eigen::HouseholderQR<Eigen::MatrixXd> qr(output_slopes(base.model, base.bench, at_));
         basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(qr.rows(), std::min(qr.rows(), qr.cols()));
@@ -253,9 +258,8 @@ private:
         const auto v = bench_.prepare(amended(base_.text, base_.whole, a), std::move(amendments), quiet);
         if (!v || !(left_.squaredNorm() > 0)) return;
         if (v->bench.options.stride != base_.bench.options.stride) return;   // it brings time to a run that nothing drove: other samples are kept
-        FitStart at = at_;
+        FitStart at = bench_.start_of(*v, base_, &Parts::fitted);
         at.parameters = neutral_parameters(*v, a);
-        at.initial = carried_initial(*v, base_);
         const std::vector<const NewName*> added = moved_by_slope(a);
         Eigen::MatrixXd slopes(left_.size(), static_cast<Eigen::Index>(added.size()));
         std::vector<double> sizes;

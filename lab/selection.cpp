@@ -137,6 +137,7 @@ Variant sharply_switched(const Workbench& bench, Variant best) {
     if (best.bench.system.layers.empty() || bench.yardstick() != Yardstick::free_run || best.score.gap() <= at_the_floor) return best;
     Variant v = best;
     v.bench.options.layer_width = thin_layer;
+    for (Bench& further : v.further) further.options.layer_width = thin_layer;
     bench.fit_and_score(v, best.fit.parameters, best.fit.initial);
     return v.score.nrmse < best.score.nrmse ? v : best;
 }
