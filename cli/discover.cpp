@@ -3,6 +3,7 @@
 #include "lab/discover.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -47,6 +48,15 @@ std::vector<std::string> effect_folders(const std::string& model) {
     return {(program / "../share/algest/models/effects").string(), (program / "../models/effects").string(), beside.string()};
 }
 
+/// Null where the data do not see it, for a number that is not finite is no JSON.
+ordered_json number_or_null(double x) { return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr); }
+
+ordered_json parameters_json(const std::vector<lab::NamedParameter>& parameters) {
+    ordered_json out = ordered_json::array();
+    for (const lab::NamedParameter& p : parameters) out.push_back({{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"sd", number_or_null(p.sd)}});
+    return out;
+}
+
 struct OutputFiles {
     std::vector<std::string> before;   ///< by recording: before.csv, before_2.csv, ...
     std::vector<std::string> after;
@@ -76,11 +86,12 @@ OutputFiles output_files(const DiscoverOptions& options) {
 }
 
 ordered_json effect_json(const lab::NamedEffect& effect) {
-    ordered_json parameters = ordered_json::array();
-    for (const lab::NamedParameter& p : effect.parameters) {
-        parameters.push_back({{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"sd", std::isfinite(p.sd) ? ordered_json(p.sd) : ordered_json(nullptr)}});
-    }
-    return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", std::move(parameters)}};
+    return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", parameters_json(effect.parameters)}};
+}
+
+ordered_json evidence_json(const lab::Evidence& e) {
+    return {{"step", e.step}, {"effect", e.effect}, {"equation", e.equation}, {"term", e.term}, {"strength", number_or_null(e.strength)}, {"validation", number_or_null(e.validation)},
+            {"gain", number_or_null(e.improvement)}, {"chosen", e.chosen}, {"rival", e.rival}};
 }
 
 ordered_json outputs_json(const std::vector<lab::OutputGap>& outputs) {
@@ -107,6 +118,10 @@ ordered_json discovery_json(const lab::Discovery& d, const OutputFiles& files, b
     out["alternatives"] = d.alternatives;
     out["experiments"] = d.experiments;
     out["doubts"] = d.doubts;
+    out["evidence"] = ordered_json::array();
+    for (const auto& e : d.evidence) out["evidence"].push_back(evidence_json(e));
+    out["parameters_before"] = parameters_json(d.parameters_before);
+    out["parameters_after"] = parameters_json(d.parameters_after);
     out["where"] = ordered_json::array();
     for (const auto& w : d.where) out["where"].push_back({{"equation", w.equation}, {"share", w.share}, {"from_s", w.from_s}, {"to_s", w.to_s}, {"region", w.region}});
     out["outputs"] = outputs_json(d.first().outputs);
@@ -156,6 +171,16 @@ bool keeps_inputs(const OutputFiles& files, const DiscoverOptions& options, Diag
     return true;
 }
 
+/// Asked before the search, so that its work is not in vain: of the folder, or of the nearest one above that exists.
+bool can_hold_files(const std::string& directory, Diagnostics& diagnostics) {
+    std::error_code error;
+    std::filesystem::path there = std::filesystem::absolute(directory, error);
+    while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+    if (std::filesystem::is_directory(there, error) && ::access(there.c_str(), W_OK | X_OK) == 0) return true;
+    diagnostics.error(directory, {}, "no folder that can be written into", "choose another one for -o");
+    return false;
+}
+
 /// Each once: a recording that is given twice would count twice.
 std::vector<lab::Recording> read_recordings(const DiscoverOptions& options, Diagnostics& diagnostics) {
     const std::vector<std::string>& paths = options.recordings;
@@ -180,14 +205,15 @@ int discover(const DiscoverOptions& options) {
     if (diagnostics.has_errors()) return fail(diagnostics, options.json);
     const auto text = model::read_text(options.model, 1024 * 1024, diagnostics);
     const std::vector<lab::Recording> recordings = read_recordings(options, diagnostics);
-    const auto effects = lab::read_effects(effect_folders(options.model), diagnostics);
+    const auto folders = effect_folders(options.model);
+    const auto effects = lab::read_effects(folders, diagnostics);
     if (effects.empty() && !diagnostics.has_errors()) {
-        diagnostics.error("algest discover", {}, "no library of effects beside the program", "install algest, run build/algest, or put a folder `effects` beside the model");
+        diagnostics.error("algest discover", {}, fmt::format("no effects in {}", fmt::join(folders, ", nor in ")), "install algest, run build/algest, or put a folder `effects` beside the model");
     }
     if (!text || diagnostics.has_errors()) return fail(diagnostics, options.json);
 
     const OutputFiles files = output_files(options);
-    if (!keeps_inputs(files, options, diagnostics)) return fail(diagnostics, options.json);
+    if (!keeps_inputs(files, options, diagnostics) || !can_hold_files(options.directory, diagnostics)) return fail(diagnostics, options.json);
 
     const auto found = [&] {
         ProgressLine progress("discover");
@@ -198,19 +224,22 @@ int discover(const DiscoverOptions& options) {
 
     const bool amended = found->model_text != *text;
     const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
-    std::error_code error;
-    std::filesystem::create_directories(options.directory, error);
-    const auto write = [&](const std::string& path, const std::string& content) { return lab::write_file(path, content, diagnostics); };
     const lab::ReportFiles named{options.model, options.recordings, options.directory, amended ? files.model : "", amended ? files.patch : "", patch};
-    bool written = true;
-    for (std::size_t k = 0; k < recordings.size() && written; ++k) {
-        written = write(files.before[k], lab::run_csv(*model, recordings[k], found->recordings[k].before)) && write(files.after[k], lab::run_csv(*model, recordings[k], found->recordings[k].after));
+    std::vector<lab::NewFile> written = {{files.report, lab::report_html(*found, *model, recordings[0], named, lab::gnuplot, diagnostics)}};
+    for (std::size_t k = 0; k < recordings.size(); ++k) {
+        written.push_back({files.before[k], lab::run_csv(*model, recordings[k], found->recordings[k].before)});
+        written.push_back({files.after[k], lab::run_csv(*model, recordings[k], found->recordings[k].after)});
     }
-    if (written && amended) written = write(files.patch, patch) && write(files.model, found->model_text);
-    written = written && write(files.report, lab::report_html(*found, *model, recordings[0], named, lab::gnuplot, diagnostics));
-    if (written && amended && options.apply) written = write(options.model, found->model_text);   // the user's own file last, when all else stands
-    if (!written) return fail(diagnostics, options.json);
+    const bool applied = options.apply && found->verdict == lab::Verdict::named;
+    if (amended) written.insert(written.end(), {{files.patch, patch}, {files.model, found->model_text}});
+    if (amended && applied) written.push_back({options.model, found->model_text});
+    std::error_code error;
+    std::filesystem::create_directories(options.directory, error);   // where it cannot be, the files say so
+    if (!lab::write_files(written, diagnostics)) return fail(diagnostics, options.json);
+    if (!amended) for (const std::string& stale : {files.model, files.patch}) std::filesystem::remove(stale);   // of an earlier run, which this one takes back
     print_diagnostics(diagnostics);
+    if (applied) note("wrote the amended model into " + options.model);
+    else if (options.apply) note(fmt::format("--apply: the verdict is {}, so {} stays as it is", lab::name(found->verdict), options.model));
     if (options.json) print_json(discovery_json(*found, files, amended));
     else print(discovery_text(*found, files.report));
     return exit_done;

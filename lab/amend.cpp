@@ -32,6 +32,24 @@ int highest_order(const formula::Formula& f) {
     return order;
 }
 
+/// With which sign the derivative of this order stands in a formula; 0: it does not.
+int sign_of_derivative(const formula::Formula& f, int order) {
+    using formula::Kind;
+    const auto of = [&](std::size_t k) { return sign_of_derivative(f->arguments[k], order); };
+    switch (f->kind) {
+        case Kind::call: return f->name == "der" && order_of_derivative(f) == order ? 1 : 0;
+        case Kind::negate: return -of(0);
+        case Kind::add: return of(0) != 0 ? of(0) : of(1);
+        case Kind::subtract: return of(0) != 0 ? of(0) : -of(1);
+        case Kind::divide: return of(0);
+        case Kind::multiply: {
+            const std::size_t other = of(0) != 0 ? 1 : 0;
+            return of(1 - other) * (f->arguments[other]->kind == Kind::negate ? -1 : 1);
+        }
+        default: return 0;
+    }
+}
+
 /// To six digits, and not below the bound that stands beside it.
 std::string value_text(const NewName& n) {
     const std::string rounded = fmt::format("{:.6g}", n.value);
@@ -100,10 +118,13 @@ public:
     void add_term(std::size_t equation, const std::string& written) {
         const model::Equation& e = model_.equations[equation];
         const bool leading_left = highest_order(e.sides.left) >= highest_order(e.sides.right);
+        const formula::Formula& leading_side = leading_left ? e.sides.left : e.sides.right;
+        // Beside the driving terms: across from the leading derivative, or next to it where it stands among them with a minus.
+        const bool across = sign_of_derivative(leading_side, highest_order(leading_side)) >= 0;
         std::string term = written;
         if (term[0] == '-' || term[0] == '+') term = term.substr(0, 1) + " " + term.substr(term[1] == ' ' ? 2 : 1);
         else term = "+ " + term;
-        std::size_t at = offset_of(text_, e.place(static_cast<int>(leading_left ? e.ode.size() : e.ode.find('='))));
+        std::size_t at = offset_of(text_, e.place(static_cast<int>(leading_left == across ? e.ode.size() : e.ode.find('='))));
         while (at > 0 && text_[at - 1] == ' ') --at;
         insert(at, " " + term);
     }

@@ -19,6 +19,7 @@ namespace algest::lab {
 namespace {
 
 constexpr double confirming_tolerance = 1e-8;
+constexpr double rows_that_see = 2.0;   ///< residual of the nominal model over noise, from which on rows may overrule a long run
 
 std::vector<NamedParameter> parameters(const Variant& v) {
     std::vector<NamedParameter> out;
@@ -183,8 +184,8 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
         bench.measure_by(Yardstick::rows);
         Selection second = search(bench, by_rows, *declared, effects, progress);
         const Verdict verdict = judge(bench, by_rows, second);
-        // Rows at the level of the noise see nothing of what is left: then the long run, which adds it up, knows better.
-        if (names_something(verdict) && second.best.score.gap() > far_from_the_floor) {
+        // Rows at the level of the noise, before as after, see nothing: then the long run, which adds it up, knows better.
+        if (names_something(verdict) && by_rows.score.gap() > rows_that_see) {
             selection = std::move(second);
             *nominal = std::move(by_rows);
             out.verdict = verdict;
@@ -196,9 +197,10 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     if (progress) progress("confirm", 0.9);
     bench.refine(*nominal);
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
-    out.evidence = std::move(selection.evidence);
     out.doubts = doubts(bench, *nominal, selection, out.verdict);
     bool stands = names_something(out.verdict);
+    out.evidence = std::move(selection.evidence);
+    if (!stands) for (Evidence& e : out.evidence) e.chosen = e.rival = false;   // tried, and not enough
     const Variant* amended = stands ? &selection.best : nullptr;
     if (stands) for (const Amendment& a : selection.best.amendments) out.effects.push_back(named(selection.best, a, effects));
     if (out.verdict == Verdict::ambiguous) tell_apart(selection, effects, out);

@@ -252,7 +252,7 @@ private:
         out_.parameter_input = out_.inputs;
         for (std::size_t p = 0; p < model_.parameters.size(); ++p) tape_inputs_.parameter.push_back(out_.inputs++);
         out_.delay_input = out_.inputs;
-        for (const model::Delay& d : delays_) tape_inputs_.delay[d.text] = out_.inputs++;
+        for (const model::Delay& d : delays_) tape_inputs_.delay[{d.text, false}] = {plan::Op::input, out_.inputs++, -1, 0};
         out_.relay_input = out_.inputs;
         number_switches(tape_inputs_.relay, relay_arguments_, [](const Formula& argument) { return is_lone(argument); });
         number_switches(tape_inputs_.layer, layer_arguments_, [](const Formula& argument) { return !is_lone(argument); });

@@ -38,9 +38,9 @@ public:
     std::optional<std::vector<std::size_t>> run() {
         for (std::size_t e = 0; e < model_.equations.size(); ++e) {
             const int output = output_of(model_, model_.equations[e]);
-            const bool good = output < 0 ? sees_no_output(model_.equations[e]) : gives_alone(e, model_.signals[static_cast<std::size_t>(output)].name);
-            if (!good) return std::nullopt;
+            if (output >= 0 && !gives_alone(e, model_.signals[static_cast<std::size_t>(output)].name)) return std::nullopt;
         }
+        for (const model::Equation& e : model_.equations) if (output_of(model_, e) < 0 && !sees_no_output(e)) return std::nullopt;
         for (std::size_t e = 0; e < model_.equations.size(); ++e) {
             if (output_of(model_, model_.equations[e]) >= 0 && !place(e)) return std::nullopt;
         }

@@ -284,6 +284,7 @@ std::optional<Figure> law_figure(const EquationResidual& residual) {
     Extent y;
     y.take(open);
     if (law) y.take(residual.law);
+    if (after) y.take(residual.after);
     if (x.empty() || y.empty()) return std::nullopt;
     const Stretch across = x.widened(0.02);
     const Stretch up = y.widened(0.06);

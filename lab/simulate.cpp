@@ -73,7 +73,13 @@ std::optional<Bench> bench(const model::Model& model, const Recording& recording
         const model::Signal& signal = model.signals[s];
         out.drive.held.push_back(signal.hold == plan::Hold::zoh);
         const bool drives = std::find(system->driven.begin(), system->driven.end(), static_cast<int>(s)) != system->driven.end();
-        if (!drives && recording.column(signal.column) == nullptr) continue;   // a hidden state, or a signal that nothing uses
+        if (!drives && recording.column(signal.column) == nullptr) {   // a hidden state, or a signal that nothing uses
+            if (signal.noise || signal.resolution || signal.column != signal.name) {
+                diagnostics.error(model.path, signal.at, "'" + signal.name + "' is declared as measured, but the recording has no column '" + signal.column + "'; there are " + recording.column_names(),
+                                  "give it column = \"...\", or leave out noise, resolution and column if nothing measures it");
+            }
+            continue;
+        }
         auto values = signal_values(recording, {signal.name, signal.column, signal.unit}, diagnostics);
         if (!values) continue;
         if (drives) out.drive.values[s] = *values;

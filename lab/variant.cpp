@@ -37,6 +37,13 @@ void start_at_fit(Variant& v) {
     for (std::size_t p = 0; p < v.model.parameters.size(); ++p) if (std::isfinite(v.fit.parameters[p])) v.model.parameters[p].initial = exact::from_double(v.fit.parameters[p]);
 }
 
+/// der(x) = v.
+bool is_kinematic(const model::Model& model, const model::Equation& e) {
+    const auto is_rate = [](const formula::Formula& f) { return f->kind == formula::Kind::call && f->name == "der" && f->arguments.size() == 1; };
+    const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
+    return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
+}
+
 /// Of two signals that an amendment bends the difference of, how small that is beside them: so much finer the run has to be.
 double smallest_part(const std::vector<Amendment>& amendments, const model::Model& model, const Bench& bench) {
     double out = 1;
@@ -269,8 +276,9 @@ Score Workbench::rows_score(const Variant& v) const {
         const int intervals = row_intervals(rows);
         const std::vector<double> noise = noise_by_signal(v.model, bench);
         for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
+            if (is_kinematic(v.model, v.model.equations[e])) continue;   // a definition; every variant scores the same equations
             const auto form = weak_form(v.model, bench, e, rows, intervals);
-            if (!form || std::find(form->used.begin(), form->used.end(), true) == form->used.end()) continue;
+            if (!form) continue;
             const Eigen::VectorXd residual = weak_residual(*form, v.fit.parameters);
             add(out, r, {residual.data(), residual.data() + residual.size()}, driving_size(*form, v.fit.parameters), weak_noise(v.model, bench, e, rows, intervals, v.fit.parameters, noise));
         }

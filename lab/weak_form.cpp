@@ -34,7 +34,9 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
     for (std::size_t s = 0; s < model.signals.size(); ++s) inputs.signal.push_back(static_cast<int>(s));
     std::vector<std::vector<double>> samples = bench.measured;
     for (const model::Delay& d : delays_of(model, form)) {
-        inputs.delay[d.text] = static_cast<int>(samples.size());
+        const int at = static_cast<int>(samples.size());
+        inputs.delay[{d.text, false}] = {plan::Op::input, at, -1, 0};
+        inputs.delay[{d.text, true}] = {plan::Op::previous, at, -1, 0};
         samples.push_back(delayed_samples(bench.measured[static_cast<std::size_t>(d.signal)], samples_ago(exact::nearest(*d.by, plan::Scalar::float64), bench.drive.period)));
     }
     TapeBuilder builder(model, plan::Scalar::float64, inputs);
