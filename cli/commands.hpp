@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "lab/recording.hpp"
+
 namespace algest::cli {
 
 struct CheckOptions {
@@ -45,6 +47,7 @@ struct ReplayOptions {
     std::string scalar = "double";  ///< double, float: as the estimator on the target
     std::optional<double> from;  ///< s
     std::optional<double> to;
+    lab::CsvStyle csv;
     bool json = false;
 };
 /// Runs the estimator over the recording and prints the parameters.
@@ -55,6 +58,7 @@ struct SimulateOptions {
     std::string recording;
     std::string output;             ///< CSV of every simulated signal; empty: none
     std::vector<std::string> set;   ///< NAME=VALUE in place of a parameter's initial value
+    lab::CsvStyle csv;
     bool json = false;
 };
 /// Runs the model freely over the inputs of the recording and says how far it is from what was measured. 1: the run diverged.
@@ -67,6 +71,7 @@ struct DiscoverOptions {
     std::string train;           ///< "A:B" in s; empty: the first 70 percent
     std::string test;            ///< "C:D" in s; empty: the rest
     bool apply = false;          ///< write the amended text over the model file
+    lab::CsvStyle csv;
     bool json = false;
 };
 /// Finds where model and recording disagree and names the missing effect.

@@ -130,7 +130,7 @@ int discover(const DiscoverOptions& options) {
     if (!options.test.empty()) stretches.test_s = stretch("--test", options.test, diagnostics);
     if (diagnostics.has_errors()) return fail(diagnostics, options.json);
     const auto text = model::read_text(options.model, 1024 * 1024, diagnostics);
-    const auto recording = lab::read_recording(options.recording, diagnostics);
+    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);
     const auto effects = lab::read_effects(effect_folders(options.model), diagnostics);
     if (effects.empty() && !diagnostics.has_errors()) {
         diagnostics.error("algest discover", {}, "no library of effects beside the program", "install algest, run build/algest, or put a folder `effects` beside the model");

@@ -65,10 +65,23 @@ CLI::App* add_generate(CLI::App& app, GenerateOptions& options) {
     return command;
 }
 
+/// How a text file is written, where it is not as design.md has it.
+void add_csv_style(CLI::App& command, algest::lab::CsvStyle& style) {
+    CLI::Option* const separator = command.add_option_function<std::string>("--separator", [&style](const std::string& name) {
+        style.separator = name == "semicolon" ? ';' : name == "tab" ? '\t' : ',';
+    }, "between the columns of a CSV file: comma, semicolon or tab; default: comma")->check(CLI::IsMember({"comma", "semicolon", "tab"}))->type_name("NAME");
+    command.add_flag_callback("--decimal-comma", [&style, separator] {
+        style.decimal = ',';
+        if (separator->count() == 0) style.separator = ';';
+    }, "numbers of a CSV file are written 1,5; columns are then separated by semicolons, unless --separator tab");
+}
+
+constexpr const char* recording_text = "CSV file (.gz too) with a header `name [unit]` and a column `t [s]`, or a MATLAB file (.mat) with a vector t";
+
 CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
     CLI::App* command = app.add_subcommand("replay", "Runs the estimator of a model over a recording");
     command->add_option("MODEL", options.model, "model file")->required();
-    command->add_option("RECORDING", options.recording, "CSV file with a header `name [unit]` and a column `t [s]`")
+    command->add_option("RECORDING", options.recording, recording_text)
         ->required();
     command->add_option("-o,--output", options.output, "write status, condition and parameters of every sample")
         ->type_name("FILE.csv");
@@ -77,6 +90,7 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
         ->capture_default_str();
     command->add_option("--from", options.from, "start at this instant of the recording")->type_name("SECONDS");
     command->add_option("--to", options.to, "end at this instant")->type_name("SECONDS");
+    add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "Examples:\n"
@@ -89,10 +103,11 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
     CLI::App* command = app.add_subcommand("simulate", "Runs a model freely over the inputs of a recording");
     command->add_option("MODEL", options.model, "model file")->required();
-    command->add_option("RECORDING", options.recording, "CSV file with a header `name [unit]` and a column `t [s]`")
+    command->add_option("RECORDING", options.recording, recording_text)
         ->required();
     command->add_option("-o,--output", options.output, "write every simulated signal")->type_name("FILE.csv");
     command->add_option("--set", options.set, "a parameter's value, in place of its `initial`")->type_name("NAME=VALUE")->allow_extra_args(false);
+    add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "nrmse is the error's rms over max(std, 0.1 rms) of the measured signal.\n"
@@ -106,7 +121,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
 CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
     CLI::App* command = app.add_subcommand("discover", "Finds what a model misses, names it and writes it into the model");
     command->add_option("MODEL", options.model, "model file")->required();
-    command->add_option("RECORDING", options.recording, "CSV file with a header `name [unit]` and a column `t [s]`")
+    command->add_option("RECORDING", options.recording, recording_text)
         ->required();
     command->add_option("-o,--output", options.directory, "folder for the amended model, its patch, before.csv and after.csv")
         ->type_name("DIR")
@@ -114,6 +129,7 @@ CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
     command->add_option("--train", options.train, "seconds to fit and choose on; default: the first 70 percent")->type_name("A:B");
     command->add_option("--test", options.test, "seconds to score on, once; default: the rest")->type_name("C:D");
     command->add_flag("--apply", options.apply, "write what was named into the model file itself");
+    add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "Verdicts: named; ambiguous (the data allow several); none (the model explains the data); unknown (a gap, and no known\n"

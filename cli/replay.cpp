@@ -114,7 +114,7 @@ int replay(const ReplayOptions& options) {
     }
 
     const auto plan = generator::plan_from_model(options.model, {options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64, {}}, diagnostics);
-    const auto recording = lab::read_recording(options.recording, diagnostics);
+    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);
     if (!plan || !recording) return fail(diagnostics, options.json);
     for (const std::string& text : plan->notes) diagnostics.note(options.model, text);
 

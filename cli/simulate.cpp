@@ -67,7 +67,7 @@ int simulate(const SimulateOptions& options) {
     const auto set = settings(options.set, diagnostics);
     if (!set) return fail(diagnostics, options.json);
     const auto model = model::read(options.model, false, diagnostics);
-    const auto recording = lab::read_recording(options.recording, diagnostics);
+    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);
     if (!model || !recording) return fail(diagnostics, options.json);
     const auto bench = lab::bench(*model, *recording, diagnostics);
     const auto parameters = lab::parameter_values(*model, *set, diagnostics);

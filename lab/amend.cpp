@@ -108,12 +108,12 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
     for (const EffectParameter& p : effect.parameters) {
         const std::string name = fresh(p.name, model);
         for (std::string& term : terms) rename(term, p.name, name);
-        out.names.push_back({name, filled(p.unit, units), 0.0, p.min, p.min && *p.min >= 0, false});
+        out.names.push_back({name, filled(p.unit, units), 0.0, p.min, false});
     }
     for (const EffectScan& s : effect.scans) {
         const std::string name = fresh(s.name, model);
         for (std::string& term : terms) rename(term, s.name, name);
-        out.names.push_back({name, filled(s.unit, units), scan, std::nullopt, false, true});
+        out.names.push_back({name, filled(s.unit, units), scan, std::nullopt, true});
     }
     for (std::size_t k = 0; k < terms.size(); ++k) out.terms.push_back(filled(terms[k], binding.roles[k]));
     return out;

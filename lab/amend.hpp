@@ -16,7 +16,6 @@ struct NewName {
     std::string unit;        ///< empty: left out
     double value;            ///< initial value, or the constant's; written no lower than min
     std::optional<double> min;
-    bool not_negative;       ///< min is 0 or more
     bool constant;
 };
 

@@ -19,7 +19,7 @@ struct Field {
 /// Splits lines one by one. Strict: a quote inside an unquoted field or one that is not closed on the line is an error.
 class CsvRow {
 public:
-    CsvRow();
+    explicit CsvRow(char separator = ',');
     ~CsvRow();
     CsvRow(const CsvRow&) = delete;
     CsvRow& operator=(const CsvRow&) = delete;
@@ -33,7 +33,9 @@ public:
 private:
     static void take(void* text, std::size_t length, void* self);
     bool give_up(std::size_t at);
+    void start();
 
+    char separator_;
     csv_parser parser_;
     std::vector<Field> fields_;
     std::size_t wrong_at_ = 0;

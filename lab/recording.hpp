@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A measured recording: a CSV file with a header `name [unit]` and a uniform column `t`, read and checked whole.
+// A measured recording: columns `name [unit]` over a uniform time `t`, read from a file and checked whole.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "generator/diagnostics.hpp"
+#include "generator/units.hpp"
+#include "lab/uniform_time.hpp"
 
 namespace algest::lab {
 
@@ -29,17 +31,29 @@ struct Recording {
     std::size_t samples() const { return t.size(); }
     const Column* column(const std::string& name) const;  ///< null: there is none
     std::string column_names() const;                     ///< for messages: `a`, `b`, `t`
+
+    /// Takes instants that were found uniform, both in one unit.
+    void set_time(const std::vector<double>& instants, const UniformTime& uniform, const units::Conversion& to_seconds);
 };
 
 /// Complaints after which reading stops.
 constexpr int most_complaints = 20;
 
-/// Reads the file. Accepted: UTF-8 with or without byte-order mark, LF or CRLF, quoted fields, blanks around fields, blank
-/// lines at the end, two rows or more. Refused with line and column: everything that is no plain finite number in a field,
+/// How a CSV file is written.
+struct CsvStyle {
+    char separator = ',';   ///< between fields
+    char decimal = '.';     ///< in numbers
+};
+
+/// Reads the file, by the end of its name:
+/// .mat: every vector of real numbers that is as long as the vector `t` is a column; the fields of a struct `units` give units, and t is
+/// in s if they do not. Other variables are left out, with a note.
+/// All others are CSV, as they are or gzipped. Accepted: UTF-8 with or without byte-order mark, LF or CRLF, quoted fields, blanks around
+/// fields, blank lines at the end, two rows or more. Refused with line and column: everything that is no plain finite number in a field,
 /// rows of another length than the header, columns of one name, a time that is not uniform (check_uniform) or has no unit
 /// of time, and what TextLines refuses. Nullopt if anything was refused.
 /// Cost: linear in the file; all columns are kept in memory, 8 bytes a value.
-std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics);
+std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics, const CsvStyle& style = {});
 
 /// What a model says of a measured signal.
 struct WantedSignal {

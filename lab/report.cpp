@@ -21,7 +21,7 @@ namespace {
 using generator::Data;
 using generator::DataList;
 
-constexpr double at_the_floor = 1.2;           ///< error over floor that is called the floor
+constexpr double called_the_floor = 1.2;       ///< error over floor up to which a reader is told that the gap is gone
 constexpr std::size_t most_evidence = 40;      ///< rows of the table
 constexpr std::size_t longest_in_a_sentence = 70;   ///< bytes of a term; a longer one gets a line of its own
 constexpr double share_worth_a_line = 0.02;    ///< of the gap, in the verdict
@@ -135,8 +135,8 @@ void set_gap(Data& page, const Discovery& d) {
     const double factor = gap.before / gap.after;
     page.set("gap_has_factor", std::isfinite(factor) && factor >= 1.05);
     set(page, "gap_factor", three_digits(factor));
-    page.set("gap_was_at_floor", output != nullptr && floored && gap.before < at_the_floor * gap.floor);
-    page.set("gap_is_at_floor", output != nullptr && floored && std::all_of(d.outputs.begin(), d.outputs.end(), [](const OutputGap& o) { return o.after < at_the_floor * o.floor; }));
+    page.set("gap_was_at_floor", output != nullptr && floored && gap.before < called_the_floor * gap.floor);
+    page.set("gap_is_at_floor", output != nullptr && floored && std::all_of(d.outputs.begin(), d.outputs.end(), [](const OutputGap& o) { return o.after < called_the_floor * o.floor; }));
 }
 
 /// How far behind the chosen effect the best one comes that was not chosen.
@@ -203,7 +203,7 @@ DataList gaps_data(const Discovery& d) {
         set(data, "floor", output.floor > 0 ? three_digits(output.floor) : "-");
         set(data, "before_over", three_digits(over_floor(output.before, output)));
         set(data, "after_over", three_digits(over_floor(output.after, output)));
-        data.set("closed", output.floor > 0 && output.after < at_the_floor * output.floor);
+        data.set("closed", output.floor > 0 && output.after < called_the_floor * output.floor);
         list.push_back(data);
     }
     return list;

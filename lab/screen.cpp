@@ -214,7 +214,9 @@ public:
         slopes = outside(slopes);
         if (!(slopes.squaredNorm() > least_of_its_own * whole)) return;   // what the parameters do already
         const Eigen::VectorXd move = slopes.colPivHouseholderQr().solve(-left_);
-        for (std::size_t k = 0; k < added.size(); ++k) if (a.names[k].not_negative && move[static_cast<Eigen::Index>(k)] < 0) return;
+        for (std::size_t k = 0; k < added.size(); ++k) {
+            if (a.names[k].min && move[static_cast<Eigen::Index>(k)] * sizes[k] < *a.names[k].min) return;
+        }
         c.share = 1 - (left_ + slopes * move).squaredNorm() / left_.squaredNorm();
         if (c.strength > 0) return;
         c.start = at.parameters;

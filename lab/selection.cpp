@@ -72,7 +72,7 @@ std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, con
         if (n.constant) continue;
         const int p = probe->parameter_index(n.name);
         if (p >= 0) n.value = c.start[static_cast<std::size_t>(p)];
-        if (n.not_negative) n.value = std::max(n.value, 0.0);
+        if (n.min) n.value = std::max(n.value, *n.min);
     }
     auto amendments = base.amendments;
     amendments.push_back(a);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/text_lines.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -24,7 +25,7 @@ TextLines::TextLines(const std::string& path, Diagnostics& diagnostics) : path_(
         refuse({}, "is a directory", "a CSV file");
         return;
     }
-    file_.reset(std::fopen(path.c_str(), "rb"));
+    file_.reset(gzopen(path.c_str(), "rb"));
     if (!file_) {
         refuse({}, std::string("cannot be read: ") + std::strerror(errno), "the path of a CSV file");
         return;
@@ -41,11 +42,12 @@ TextLines::TextLines(const std::string& path, Diagnostics& diagnostics) : path_(
 
 bool TextLines::read_block() {
     std::array<char, 65536> block;
-    const std::size_t count = std::fread(block.data(), 1, block.size(), file_.get());
-    if (count == 0 && std::ferror(file_.get()) != 0) {
-        return refuse({}, std::string("cannot be read: ") + std::strerror(errno), "the path of a CSV file");
-    }
-    buffer_.append(block.data(), count);
+    const int count = gzread(file_.get(), block.data(), static_cast<unsigned>(block.size()));
+    int error = Z_OK;
+    const char* const text = gzerror(file_.get(), &error);
+    if (error == Z_ERRNO) return refuse({}, std::string("cannot be read: ") + std::strerror(errno), "the path of a CSV file");
+    if (error != Z_OK) return refuse({}, error == Z_BUF_ERROR ? "the gzipped file ends too early" : std::string("the gzipped file is damaged: ") + text, "the file packed once more");
+    buffer_.append(block.data(), static_cast<std::size_t>(std::max(count, 0)));
     return count > 0;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A text file line by line. What no recording may contain is refused at the line where it stands, without reading on: a
+// A text file, gzipped or not, line by line. What no recording may contain is refused at the line where it stands, without reading on: a
 // line without end, a NUL byte, UTF-16, line ends of two kinds.
 #pragma once
+#include <zlib.h>
+
 #include <cstddef>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -33,7 +34,7 @@ public:
 
 private:
     struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
+        void operator()(gzFile_s* file) const { gzclose(file); }
     };
 
     bool read_block();
@@ -42,7 +43,7 @@ private:
 
     std::string path_;
     Diagnostics* diagnostics_;
-    std::unique_ptr<std::FILE, Close> file_;
+    std::unique_ptr<gzFile_s, Close> file_;
     std::string buffer_;
     std::size_t begin_ = 0;  ///< where the next line starts in buffer_
     std::string_view line_;

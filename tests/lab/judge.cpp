@@ -172,8 +172,8 @@ TEST_CASE("doubts: what was scanned, and what is hardly known") {
     const Workplace& w = noise_alone();
     Selection selection = selected(at(*w.nominal, 1));
     lab::Amendment wave{"wave", {0}, {"-a*sin(N*x)"}, {}, "", "", ""};
-    wave.names.push_back({"a", "1/s", 0, std::nullopt, false, false});
-    wave.names.push_back({"N", "1", 4, std::nullopt, false, true});
+    wave.names.push_back({"a", "1/s", 0, std::nullopt, false});
+    wave.names.push_back({"N", "1", 4, std::nullopt, true});
     selection.best.amendments.push_back(wave);
     const auto with_sd = [&](double sd, Verdict v) {
         selection.best.fit.sd = {sd, 0.01};

@@ -7,8 +7,8 @@
 
 namespace algest::plants {
 
-/// The model of models/ with another window, s, and another quadrature.
-inline std::string dc_motor_model(double window, const std::string& quadrature = "exact") {
+/// The model of models/ with another window, s, another quadrature, another form of the annihilator.
+inline std::string dc_motor_model(double window, const std::string& quadrature = "exact", int form = 1) {
     return fmt::format(R"(format = 1
 name = "dc_motor"
 [sampling]
@@ -25,8 +25,9 @@ known = {{ a0 = 0 }}
 [estimator]
 solve = "square"
 quadrature = "{}"
+form = {}
 )",
-                       window, quadrature);
+                       window, quadrature, form);
 }
 
 }  // namespace algest::plants

@@ -3,34 +3,11 @@
 #include <fmt/format.h>
 
 #include "tests/plants/dc_motor.hpp"
+#include "tests/plants/dc_motor_model.hpp"
 #include "tests/plants/estimates.hpp"
 
 using namespace algest;
 using namespace algest::plants;
-
-namespace {
-
-plan::Plan motor(double window, int form) {
-    return plan_of(fmt::format(R"(format = 1
-name = "dc_motor"
-[sampling]
-period = 1e-3
-window = {}
-[signals]
-y = {{ unit = "rad" }}
-u = {{ unit = "V" }}
-[transfer]
-n = 3
-m = 0
-unknowns = ["a1", "a2", "b0"]
-known = {{ a0 = 0 }}
-[estimator]
-form = {}
-)",
-                               window, form));
-}
-
-}  // namespace
 
 TEST_CASE("form 2 and form 1 are one square estimator, from 0.3 s on") {
     const DcMotor plant;
@@ -39,8 +16,8 @@ TEST_CASE("form 2 and form 1 are one square estimator, from 0.3 s on") {
     double worst = 0.0;
     for (const double window : {0.3, 0.8, 1.5, 3.0}) {
         const std::vector<std::vector<double>> first(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(window * 1000.0 + 1.5));
-        const Estimate one = first_ok(estimates(motor(window, 1), first));
-        const Estimate two = first_ok(estimates(motor(window, 2), first));
+        const Estimate one = first_ok(estimates(plan_of(dc_motor_model(window, "exact", 1)), first));
+        const Estimate two = first_ok(estimates(plan_of(dc_motor_model(window, "exact", 2)), first));
         const double difference = worst_error(two.parameters, one.parameters);
         fmt::print("DC motor, {} s: the forms differ by {:.1e} (condition {:.1e} and {:.1e})\n", window, difference, one.condition, two.condition);
         worst = std::max(worst, difference);

@@ -3,6 +3,8 @@
 // read off its symbols.
 #include HEADER
 
+#include "uncertainty_status.hpp"
+
 using Class = algest::generated::MODEL;
 
 extern Class estimator;
@@ -16,17 +18,8 @@ Class::Estimate all(const Class::Sample& sample, int what) {
     return estimator.step(sample);
 }
 
-// A model that declares noise has one member more.
-template <class C>
-auto uncertain(C& c, int) -> decltype(c.uncertainty().status) {
-    return c.uncertainty().status;
-}
-template <class C>
-algest::Status uncertain(C& c, long) {
-    return c.estimate().status;
-}
 algest::Status uncertain_status();
-algest::Status uncertain_status() { return uncertain(estimator, 0); }
+algest::Status uncertain_status() { return generated_test::uncertainty_status(estimator); }
 
 const char* status(const Class::Estimate& e);
 const char* status(const Class::Estimate& e) { return algest::name(e.status); }

@@ -12,6 +12,8 @@
 
 #include HEADER
 
+#include "uncertainty_status.hpp"
+
 using Class = algest::generated::MODEL;
 using Scalar = Class::Scalar;
 
@@ -78,16 +80,6 @@ namespace {
 
 Class estimator;
 
-/// Calls uncertainty(), where the model declares noise.
-template <class C>
-auto uncertain(C& c, int) -> decltype(c.uncertainty().status) {
-    return c.uncertainty().status;
-}
-template <class C>
-algest::Status uncertain(C& c, long) {
-    return c.estimate().status;
-}
-
 constexpr int inputs = sizeof(Class::Sample) / sizeof(Scalar);
 int seen[4];
 unsigned state = 1;
@@ -129,7 +121,7 @@ int main(int argc, char**) {
             } else {
                 estimator.push(s);
                 if (k % 5 == 1) e = estimator.estimate();
-                if (k % 500 == 2) e.status = uncertain(estimator, 0);
+                if (k % 500 == 2) e.status = generated_test::uncertainty_status(estimator);
             }
             forbidden = false;
             ++seen[static_cast<int>(e.status)];
