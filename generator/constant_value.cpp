@@ -92,6 +92,10 @@ private:
 
     std::optional<Rational> call(const Formula& f) {
         if (f->name == "der") return std::nullopt;
+        if (f->name == "delay") {   // by a value, of a signal
+            (void)of(f->arguments[1]);
+            return std::nullopt;
+        }
         const auto a = of(f->arguments[0]);
         const auto b = f->arguments.size() > 1 ? of(f->arguments[1]) : a;
         if (!a || !b) return std::nullopt;

@@ -54,6 +54,18 @@ struct Walk {
         }
     }
 
+    static bool names_nothing(const Formula& f) {
+        return f->kind != Kind::name && std::all_of(f->arguments.begin(), f->arguments.end(), [](const Formula& a) { return names_nothing(a); });
+    }
+
+    /// A bare number counts as seconds.
+    void expect_seconds(const Formula& f) const {
+        const Unit unit = of(f);
+        const Unit second = *Unit::parse("s");
+        if (!unit.known() || names_nothing(f) || (unit.same_dimension(second) && std::abs(unit.factor_to(second) - 1.0) <= 1e-9)) return;
+        complain(f, "the time of a delay has the unit [" + unit.text() + "]", "declare it in s");
+    }
+
     Unit power(const Formula& f) const {
         const Unit base = of(f->arguments[0]);
         const Formula& e = f->arguments[1];
@@ -74,6 +86,10 @@ struct Walk {
             return of(x).over(Unit::parse("s")->power(order));
         }
         const Unit unit = of(x);
+        if (f->name == "delay") {
+            expect_seconds(f->arguments[1]);
+            return unit;
+        }
         if (f->name == "sqrt") return unit.root(2);
         if (f->name == "abs") return unit;
         if (f->name == "sgn") return Unit::dimensionless();

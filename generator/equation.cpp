@@ -152,10 +152,9 @@ private:
         return f;
     }
 
-    [[noreturn]] void nonlinear(const Formula& inside, const std::string& where) {
+    [[noreturn]] void nonlinear(const Formula& inside, const std::string& where) const {
         const Formula& p = first_parameter(inside);
-        fail(p, "parameter '" + p->name + "' stands " + where + ": the equation is not linear in it",
-             "declare it under [constants], or rewrite the term as a product of parameters and signals");
+        throw NonlinearParameter{p->name, where, equation_.place(p->start)};
     }
 
     /// The symbol of an atom, or of 1/atom. What has one normal form is one atom, a multiple of it a multiple of its symbol.
@@ -384,9 +383,23 @@ std::string OperatorForm::latex(const Product& product) const { return joined(*t
 std::optional<OperatorForm> operator_form(const model::Model& model, const model::Equation& equation, Diagnostics& diagnostics) {
     try {
         return Builder(model, equation, diagnostics).build();
-    } catch (const Stop&) {
-        return std::nullopt;
+    } catch (const NonlinearParameter& p) {
+        diagnostics.error(equation.file, p.at, "parameter '" + p.name + "' stands " + p.where + ": the equation is not linear in it",
+                          "declare it under [constants], or rewrite the term as a product of parameters and signals");
+    } catch (const Stop&) {   // it has complained
     }
+    return std::nullopt;
+}
+
+std::optional<NonlinearParameter> nonlinear_parameter(const model::Model& model, const model::Equation& equation) {
+    Diagnostics unsaid;
+    try {
+        (void)Builder(model, equation, unsaid).build();
+    } catch (const NonlinearParameter& p) {
+        return p;
+    } catch (const Stop&) {   // of another kind
+    }
+    return std::nullopt;
 }
 
 }  // namespace algest::equation

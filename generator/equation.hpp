@@ -58,4 +58,14 @@ struct OperatorForm {
 /// a derivative of order above 1 stands inside a nonlinearity.
 std::optional<OperatorForm> operator_form(const model::Model& model, const model::Equation& equation, Diagnostics& diagnostics);
 
+/// A parameter of which no product of unknowns can be made.
+struct NonlinearParameter {
+    std::string name;
+    std::string where;   ///< it stands there: "inside exp()"
+    Position at;
+};
+
+/// The first one of an equation: then it has no operator form, and only a free run can tell the parameter.
+std::optional<NonlinearParameter> nonlinear_parameter(const model::Model& model, const model::Equation& equation);
+
 }  // namespace algest::equation

@@ -200,11 +200,11 @@ private:
             fail(here, "a name of " + std::to_string(name.size()) + " characters", "names have at most " + std::to_string(longest_name));
         }
         if (!accept('(')) return node(Kind::name, here, here, {}, std::move(name));
-        if (name != "der" && !is_function(name)) {
-            std::vector<std::string> known = {"der"};
+        if (name != "der" && name != "delay" && !is_function(name)) {
+            std::vector<std::string> known = {"der", "delay"};
             known.insert(known.end(), functions.begin(), functions.end());
             fail(here, "'" + name + "' is not a function",
-                 did_you_mean(name, known) + "functions are der sin cos tan exp log sqrt abs sgn min max; write * for a product");
+                 did_you_mean(name, known) + "functions are der delay sin cos tan exp log sqrt abs sgn min max; write * for a product");
         }
         std::vector<Formula> arguments;
         if (!accept(')')) {
@@ -215,13 +215,20 @@ private:
                 not_an_operator();
             }
         }
-        const std::size_t most = name == "der" || is_function_of_two(name) ? 2 : 1;
-        const std::size_t least = is_function_of_two(name) ? 2 : 1;
-        if (arguments.size() < least || arguments.size() > most) {
-            fail(here, name + " takes " + (name == "der" ? "a signal and, if wanted, an order" : least == 2 ? "two arguments" : "one argument"),
-                 name == "der" ? "der(x) or der(x,2)" : least == 2 ? name + "(x,y)" : name + "(x)");
-        }
+        check_count(name, here, arguments.size());
         return node(Kind::call, here, here, std::move(arguments), std::move(name));
+    }
+
+    void check_count(const std::string& name, int here, std::size_t arguments) {
+        if (name == "der") {
+            if (arguments < 1 || arguments > 2) fail(here, "der takes a signal and, if wanted, an order", "der(x) or der(x,2)");
+        } else if (name == "delay") {
+            if (arguments != 2) fail(here, "delay takes a signal and a time in seconds", "delay(x,0.02)");
+        } else if (is_function_of_two(name)) {
+            if (arguments != 2) fail(here, name + " takes two arguments", name + "(x,y)");
+        } else if (arguments != 1) {
+            fail(here, name + " takes one argument", name + "(x)");
+        }
     }
 
     std::string_view text_;
@@ -281,6 +288,7 @@ std::string latex_printed(const Formula& f, int outer) {
                 const std::string order = f->arguments.size() > 1 ? printed(f->arguments[1], 0) : "1";
                 return latex_printed(f->arguments[0], 5) + (order == "1" ? "'" : "^{(" + order + ")}");
             }
+            if (f->name == "delay") return latex_printed(f->arguments[0], 5) + "\\left(t-" + latex_printed(f->arguments[1], 2) + "\\right)";
             if (f->name == "sqrt") return "\\sqrt{" + latex_printed(f->arguments[0], 0) + "}";
             if (f->name == "abs") return "\\left|" + latex_printed(f->arguments[0], 0) + "\\right|";
             out = (f->name == "sgn" ? "\\operatorname{sgn}" : "\\" + f->name) + "\\left(";
@@ -300,6 +308,8 @@ std::string latex_printed(const Formula& f, int outer) {
 }  // namespace
 
 bool is_function_of_two(std::string_view name) { return name == "min" || name == "max"; }
+
+bool is_call(const Formula& f, std::string_view name) { return f->kind == Kind::call && f->name == name; }
 
 bool is_function(std::string_view name) { return std::find(functions.begin(), functions.end(), name) != functions.end(); }
 

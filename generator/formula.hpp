@@ -44,9 +44,12 @@ constexpr int longest_name = 60;
 /// Largest integer exponent.
 constexpr int largest_exponent = 32;
 
-/// Functions of one and of two arguments that a formula may call, `der` aside.
+/// Functions of one and of two arguments that a formula may call, `der` and `delay` aside: those are of a signal, not of a value.
 bool is_function(std::string_view name);
 bool is_function_of_two(std::string_view name);
+
+/// True for a call of `name`.
+bool is_call(const Formula& f, std::string_view name);
 
 /// Parses an expression; one complaint and nullopt if it is none.
 std::optional<Formula> parse(std::string_view text, const Complain& complain);

@@ -29,6 +29,29 @@ bool unknown_name(const Formula& f, const std::vector<Position>& places, Reading
     return false;
 }
 
+/// delay() takes a signal and a time that is known or a parameter, never before now.
+bool sound_delay(const Formula& f, const std::vector<Position>& places, Reading& reading) {
+    const Model& model = reading.model;
+    const auto complain = [&](std::size_t argument, const std::string& what, const std::string& right) {
+        reading.file.error(place_of(f->arguments[argument]->start, places), what, right);
+        return false;
+    };
+    if (f->arguments[0]->kind != formula::Kind::name || model.signal(f->arguments[0]->name) == nullptr) {
+        return complain(0, "delay() of something that is not a signal", "write delay(x, 0.02) of a signal x; delay the signals of an expression one by one");
+    }
+    const Formula& by = f->arguments[1];
+    if (by->kind == formula::Kind::name && model.parameter(by->name) != nullptr) {
+        const auto& min = model.parameter(by->name)->min;
+        if (min && *min >= 0) return true;
+        return complain(1, "the delay '" + by->name + "' may become negative, which is the future", "give the parameter min = 0");
+    }
+    if (!check_constants(model, by, complaint_at(places, reading.file))) return false;
+    const auto value = constant_value(model, by);
+    if (!value) return complain(1, "the time of a delay is neither known nor a parameter", "write a number in s, a formula of constants, or a parameter alone");
+    if (cln::minusp(*value)) return complain(1, "a delay by less than nothing", "a delay is 0 s or more");
+    return true;
+}
+
 /// Every name is declared, der() takes a signal and a whole order. Complains about each that is not.
 bool names_exist(const Formula& f, const std::vector<Position>& places, Reading& reading) {
     const Model& model = reading.model;
@@ -56,6 +79,7 @@ bool names_exist(const Formula& f, const std::vector<Position>& places, Reading&
     }
     bool good = true;
     for (const Formula& a : f->arguments) good = names_exist(a, places, reading) && good;
+    if (good && formula::is_call(f, "delay")) return sound_delay(f, places, reading);
     return good;
 }
 

@@ -66,7 +66,7 @@ std::optional<NameFault> fault_of_name(const std::string& name) {
     if (starts("M_") || starts("FP_") || starts("DBL_") || starts("FLT_") || ends("_MAX") || ends("_MIN")) {
         return NameFault{"'" + name + "' may be a macro of the standard headers", "choose another name, in lower case"};
     }
-    if (name == "der" || formula::is_function(name)) return NameFault{"'" + name + "' is a function", "choose another name"};
+    if (name == "der" || name == "delay" || formula::is_function(name)) return NameFault{"'" + name + "' is a function", "choose another name"};
     return std::nullopt;
 }
 

@@ -165,6 +165,7 @@ NormalForms::Sum NormalForms::call(const Formula& f) {
         const std::string order = f->arguments.size() > 1 ? exact::text(f->arguments[1]->value) : "1";
         return factor("der(" + f->arguments[0]->name + "," + order + ")");
     }
+    if (f->name == "delay") return factor("delay(" + f->arguments[0]->name + "," + argument(f->arguments[1]) + ")");
     if (formula::is_function_of_two(f->name)) {   // min and max: in any order
         const std::string a = argument(f->arguments[0]);
         const std::string b = argument(f->arguments[1]);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "generator/annihilator.hpp"
+#include "generator/delay.hpp"
 #include "generator/dimension.hpp"
 #include "generator/discrete_plan.hpp"
 #include "generator/generate.hpp"
@@ -40,6 +41,7 @@ public:
     std::optional<plan::Plan> run() {
         if (!what_is_missing()) return std::nullopt;
         if (model_.discrete) return run_discrete();
+        if (!nothing_is_delayed()) return std::nullopt;
         const auto forms = operator_forms(model_, diagnostics_);
         if (!forms) return std::nullopt;
         forms_ = *forms;
@@ -93,6 +95,15 @@ private:
                                "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
         }
         if (model_.parameters.empty() && !model_.discrete) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
+        return !diagnostics_.has_errors();
+    }
+
+    bool nothing_is_delayed() {
+        for (const model::Equation& e : model_.equations) {
+            std::vector<model::Delay> delays;
+            for (const formula::Formula& side : {e.sides.left, e.sides.right}) model::add_delays(model_, side, delays);
+            for (const model::Delay& d : delays) diagnostics_.error(e.file, e.place(d.call->start), "an estimator cannot delay a signal in this version", "feed it the delayed samples as a signal of their own");
+        }
         return !diagnostics_.has_errors();
     }
 
@@ -487,11 +498,26 @@ private:
     plan::Plan plan_;
 };
 
+/// True, with a warning for each, where parameters enter nonlinearly; what else keeps an equation from its form is an error.
+bool simulation_alone(const model::Model& model, Diagnostics& diagnostics) {
+    bool out = false;
+    for (const model::Equation& e : model.equations) {
+        const auto p = equation::nonlinear_parameter(model, e);
+        if (!p) continue;
+        diagnostics.warning(e.file, p->at, "parameter '" + p->name + "' stands " + p->where + ": simulate and discover fit it, an estimator cannot",
+                            "declare it under [constants] once its value is known");
+        out = true;
+    }
+    for (const model::Equation& e : model.equations) if (out && !equation::nonlinear_parameter(model, e)) (void)equation::operator_form(model, e, diagnostics);
+    return out;
+}
+
 }  // namespace
 
 bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics) {
     const auto model = model::read(path, strict, diagnostics);
     if (!model) return false;
+    if (simulation_alone(*model, diagnostics)) return !diagnostics.failed();
     if ((!model->parameters.empty() && model->window && model->period) || model->discrete) {   // an estimator follows, or it is said why not
         PlanOptions options;
         options.weights = false;

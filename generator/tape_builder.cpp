@@ -68,6 +68,7 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
         case Kind::negate: return add(Op::neg, formula(f->arguments[0], delayed));
         case Kind::call: {
             if (f->name == "der") return derivative(f);
+            if (f->name == "delay") return add(delayed ? Op::previous : Op::input, inputs_.delay.at(formula::text(f)));
             const auto relay = inputs_.relay.find(f.get());
             if (relay != inputs_.relay.end()) return add(Op::input, relay->second);
             const int a = formula(f->arguments[0], delayed);

@@ -18,6 +18,7 @@ struct TapeInputs {
     std::map<std::pair<int, int>, int> derivative = {};    ///< (signal, order); one that is not here is left to the parabola filter
     std::map<const formula::Node*, int> relay = {};        ///< calls of sgn() whose value is an input; none else
     std::map<const formula::Node*, int> layer = {};        ///< calls of sgn() that rise from -1 to 1 over twice the width that is an input; none else
+    std::map<std::string, int> delay = {};                 ///< calls of delay(), by their text; one that is not here may not occur
 };
 
 class TapeBuilder {

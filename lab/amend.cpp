@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/bound_edits.hpp"
 #include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
 
@@ -24,36 +25,9 @@ std::size_t offset_of(const std::string& text, Position at) {
     return offset;
 }
 
-/// Replaces a name where it stands as a whole word.
-void rename(std::string& term, const std::string& from, const std::string& to) {
-    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    for (std::size_t at = term.find(from); at != std::string::npos; at = term.find(from, at + 1)) {
-        const bool starts = at == 0 || !is_word(term[at - 1]);
-        const bool ends = at + from.size() == term.size() || !is_word(term[at + from.size()]);
-        if (!starts || !ends) continue;
-        term.replace(at, from.size(), to);
-        at += to.size() - 1;
-    }
-}
-
-bool taken(const std::string& name, const model::Model& model) {
-    const auto same = [&](const std::string& other) {
-        return other.size() == name.size() && std::equal(name.begin(), name.end(), other.begin(), [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
-    };
-    return std::any_of(model.signals.begin(), model.signals.end(), [&](const auto& s) { return same(s.name); }) ||
-           std::any_of(model.constants.begin(), model.constants.end(), [&](const auto& c) { return same(c.name); }) ||
-           std::any_of(model.parameters.begin(), model.parameters.end(), [&](const auto& p) { return same(p.name); });
-}
-
-std::string fresh(const std::string& wanted, const model::Model& model) {
-    std::string name = wanted;
-    for (int k = 2; taken(name, model); ++k) name = wanted + std::to_string(k);
-    return name;
-}
-
 int highest_order(const formula::Formula& f) {
     int order = 0;
-    if (f->kind == formula::Kind::call && f->name == "der") order = f->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(f->arguments[1]->value)) : 1;
+    if (f->kind == formula::Kind::call && f->name == "der") order = order_of_derivative(f);
     for (const formula::Formula& a : f->arguments) order = std::max(order, highest_order(a));
     return order;
 }
@@ -68,7 +42,7 @@ std::string value_text(const NewName& n) {
 std::vector<std::string> keys_of(const NewName& n) {
     std::vector<std::string> out = {(n.constant ? "value = " : "initial = ") + value_text(n)};
     if (!n.unit.empty()) out.push_back("unit = \"" + n.unit + "\"");
-    if (n.min) out.push_back(fmt::format("min = {}", *n.min));
+    if (n.min && !n.constant) out.push_back(fmt::format("min = {}", *n.min));
     return out;
 }
 
@@ -95,75 +69,166 @@ std::string with_crlf(const std::string& text) {
     return out;
 }
 
-}  // namespace
+/// Text that takes the place of [begin, end) of the file.
+struct Splice {
+    std::size_t begin;
+    std::size_t end;
+    std::string text;
+};
 
-Amendment amendment(const Binding& binding, const model::Model& model, double scan) {
-    const Effect& effect = *binding.effect;
-    std::vector<std::string> terms = binding.terms;
-    Amendment out{effect.name, binding.equations, {}, {}, "", "", effect.summary};
-    if (binding.roles[0].size() == 1 && model.signal_index(binding.roles[0].begin()->second) >= 0) out.against = binding.roles[0].begin()->second;
-    for (const auto& [role, kind] : effect.roles) if (kind == "time" && model.signal_index(time_name(model)) < 0) out.time = time_name(model);
-    std::map<std::string, std::string> units = binding.role_units;
-    units["equation"] = binding.unit;
-    for (const EffectParameter& p : effect.parameters) {
-        const std::string name = fresh(p.name, model);
-        for (std::string& term : terms) rename(term, p.name, name);
-        out.names.push_back({name, filled(p.unit, units), 0.0, p.min, false});
-    }
-    for (const EffectScan& s : effect.scans) {
-        const std::string name = fresh(s.name, model);
-        for (std::string& term : terms) rename(term, s.name, name);
-        out.names.push_back({name, filled(s.unit, units), scan, std::nullopt, true});
-    }
-    for (std::size_t k = 0; k < terms.size(); ++k) out.terms.push_back(filled(terms[k], binding.roles[k]));
-    return out;
+bool is_word(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
 }
 
-std::string amended(const std::string& text, const model::Model& model, const Amendment& amendment) {
-    std::string out = text;
-    std::vector<std::pair<std::size_t, std::string>> insertions;
-    for (std::size_t k = 0; k < amendment.equations.size(); ++k) {
-        const model::Equation& equation = model.equations[amendment.equations[k]];
-        const bool leading_left = highest_order(equation.sides.left) >= highest_order(equation.sides.right);
-        const std::size_t place = leading_left ? equation.ode.size() : equation.ode.find('=');
-        std::string term = amendment.terms[k];
-        if (term[0] == '-' || term[0] == '+') term = term.substr(0, 1) + " " + term.substr(1);
+/// Edits of one text, collected by the positions that it has before them.
+class Edits {
+public:
+    Edits(const std::string& text, const model::Model& model) : text_(text), model_(model) {}
+
+    void add_term(std::size_t equation, const std::string& written) {
+        const model::Equation& e = model_.equations[equation];
+        const bool leading_left = highest_order(e.sides.left) >= highest_order(e.sides.right);
+        std::string term = written;
+        if (term[0] == '-' || term[0] == '+') term = term.substr(0, 1) + " " + term.substr(term[1] == ' ' ? 2 : 1);
         else term = "+ " + term;
-        std::size_t at = offset_of(out, equation.place(static_cast<int>(place)));
-        while (at > 0 && out[at - 1] == ' ') --at;
-        insertions.emplace_back(at, " " + term);
+        std::size_t at = offset_of(text_, e.place(static_cast<int>(leading_left ? e.ode.size() : e.ode.find('='))));
+        while (at > 0 && text_[at - 1] == ' ') --at;
+        insert(at, " " + term);
     }
-    if (!amendment.time.empty()) {
-        const std::string entry = amendment.time + " = { unit = \"s\"" + (amendment.time == time_column ? "" : std::string(", column = \"") + time_column + "\"") + " }   # " + amendment.because + "\n";
-        const std::size_t where = behind_last(out, model.signals);
-        if (where != std::string::npos) insertions.emplace_back(where, entry);
-        else out += "\n[signals." + amendment.time + "]\nunit = \"s\"\ncolumn = \"" + time_column + "\"\n";
+
+    void substitute(const Substitution& s) {
+        const model::Equation& e = model_.equations[s.equation];
+        const Places places = places_of(s, model_);
+        for (const Stretch& at : places.plain) {
+            replace(e, at, is_reversed(s, e, at) ? "-" + in_parentheses(s.by) : s.by);
+        }
+        const std::string derivative = s.derivative.empty() && is_word(s.by) ? "der(" + s.by + ")" : s.derivative;
+        if (derivative.empty()) return;
+        for (const Stretch& at : places.derivatives) replace(e, at, filled(derivative, {{"derivative", e.ode.substr(at.begin, at.end - at.begin)}}));
     }
-    // Later places first, so that earlier positions stay right.
-    const std::size_t parameters = behind_last(out, model.parameters);
-    const std::size_t constants = behind_last(out, model.constants);
-    std::string own_tables;
-    for (const NewName& n : amendment.names) {
-        const std::size_t where = n.constant ? constants : parameters;
+
+    /// An entry of a table, behind the last one that stands on a line of its own; else a table of its own at the end.
+    template <class Names>
+    void declare(const Names& declared, const std::string& table, const std::string& name, const std::vector<std::string>& keys, const std::string& because) {
+        const std::size_t where = behind_last(text_, declared);
         if (where != std::string::npos) {
-            const bool needs_break = where == out.size() && !out.empty() && out.back() != '\n';
-            insertions.emplace_back(where, fmt::format("{}{} = {{ {} }}   # {}\n", needs_break ? "\n" : "", n.name, fmt::join(keys_of(n), ", "), amendment.because));
+            const bool needs_break = where == text_.size() && !text_.empty() && text_.back() != '\n';
+            insert(where, fmt::format("{}{} = {{ {} }}   # {}\n", needs_break ? "\n" : "", name, fmt::join(keys, ", "), because));
         } else {
-            own_tables += fmt::format("\n[{}.{}]   # {}\n{}\n", n.constant ? "constants" : "parameters", n.name, amendment.because, fmt::join(keys_of(n), "\n"));
+            own_tables_ += fmt::format("\n[{}.{}]   # {}\n{}\n", table, name, because, fmt::join(keys, "\n"));
         }
     }
-    std::stable_sort(insertions.begin(), insertions.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    // Entries for one place keep their order: insert the last first.
-    for (std::size_t k = 0; k < insertions.size();) {
-        std::size_t same = k;
-        std::string joined;
-        while (same < insertions.size() && insertions[same].first == insertions[k].first) joined += insertions[same++].second;
-        out.insert(insertions[k].first, joined);
-        k = same;
+
+    void add_equation(const NewState& s) {
+        insert(behind_equations(), fmt::format("\n[[equation]]\nname = \"{}\"\node = \"{}\"\n", s.equation, s.ode));
     }
-    if (!own_tables.empty() && !out.empty() && out.back() != '\n') out += "\n";
-    out += own_tables;
-    return text.find("\r\n") == std::string::npos ? out : with_crlf(out);
+
+    /// The constant's entry becomes one of a parameter; false where it is written in a way that this cannot move.
+    bool let_go(const NewName& n) {
+        const model::Constant& c = *model_.constant(n.name);
+        const std::size_t start = offset_of(text_, {c.at.line, 1});
+        const std::size_t end = std::min(text_.find('\n', start), text_.size() - 1) + 1;
+        std::string entry = text_.substr(start, end - start);
+        const std::size_t value = entry.find("value");
+        const std::size_t equals = entry.find('=');
+        if (equals == std::string::npos || value == std::string::npos || value < equals || entry.find('}') == std::string::npos) return false;
+        const std::size_t number = entry.find_first_not_of(" \t", entry.find('=', value) + 1);
+        const std::size_t behind = entry.find_first_of(",} \t", number);
+        entry.replace(number, behind - number, value_text(n));
+        entry.replace(value, 5, "initial");
+        const std::size_t where = behind_last(text_, model_.parameters);
+        splices_.push_back({start, end, ""});
+        if (where != std::string::npos) insert(where, entry);
+        else own_tables_ += "\n[parameters]\n" + entry;
+        return true;
+    }
+
+    std::string done() {
+        // Later places first, so that earlier positions stay right; what comes to one place keeps its order.
+        std::stable_sort(splices_.begin(), splices_.end(), [](const Splice& a, const Splice& b) { return a.begin > b.begin; });
+        std::string out = text_;
+        for (std::size_t k = 0; k < splices_.size();) {
+            std::size_t same = k;
+            std::size_t end = splices_[k].end;
+            std::string joined;
+            for (; same < splices_.size() && splices_[same].begin == splices_[k].begin; ++same) {
+                joined += splices_[same].text;
+                end = std::max(end, splices_[same].end);
+            }
+            out.replace(splices_[k].begin, end - splices_[k].begin, joined);
+            k = same;
+        }
+        if (!own_tables_.empty() && !out.empty() && out.back() != '\n') out += "\n";
+        out += own_tables_;
+        return text_.find("\r\n") == std::string::npos ? out : with_crlf(out);
+    }
+
+private:
+    /// True for b - a in the place of (a-b).
+    static bool is_reversed(const Substitution& s, const model::Equation& e, const Stretch& at) {
+        if (s.what[0] != '(') return false;
+        const std::string first = s.what.substr(1, s.what.find('-') - 1);
+        return e.ode.compare(at.begin, first.size(), first) != 0 || is_word(e.ode.substr(at.begin, first.size() + 1));
+    }
+
+    static std::string in_parentheses(const std::string& text) { return "(" + text + ")"; }
+
+    void insert(std::size_t at, std::string text) { splices_.push_back({at, at, std::move(text)}); }
+
+    /// In parentheses, unless it is a word or stands in parentheses already.
+    void replace(const model::Equation& e, const Stretch& at, const std::string& by) {
+        const bool enclosed = at.begin > 0 && e.ode[at.begin - 1] == '(' && at.end < e.ode.size() && e.ode[at.end] == ')';
+        splices_.push_back({offset_of(text_, e.place(static_cast<int>(at.begin))), offset_of(text_, e.place(static_cast<int>(at.end))), enclosed || is_word(by) ? by : in_parentheses(by)});
+    }
+
+    /// Behind the last line of the last [[equation]].
+    std::size_t behind_equations() const {
+        int line = 1;
+        for (const model::Equation& e : model_.equations) line = std::max(line, e.at.line);
+        std::size_t out = text_.size();
+        for (std::size_t at = offset_of(text_, {line, 1}); at < text_.size();) {
+            const std::size_t next = std::min(text_.find('\n', at), text_.size() - 1) + 1;
+            const std::size_t first = text_.find_first_not_of(" \t\r", at);
+            if (first < next && text_[first] == '[') break;
+            if (first < next && text_[first] != '\n' && text_[first] != '#') out = next;
+            at = next;
+        }
+        return out;
+    }
+
+    const std::string& text_;
+    const model::Model& model_;
+    std::vector<Splice> splices_;
+    std::string own_tables_;
+};
+
+}  // namespace
+
+std::string amended(const std::string& text, const model::Model& model, const Amendment& a) {
+    Edits edits(text, model);
+    for (std::size_t k = 0; k < a.equations.size(); ++k) if (!a.terms[k].empty()) edits.add_term(a.equations[k], a.terms[k]);
+    for (const Substitution& s : a.substitutions) edits.substitute(s);
+    if (!a.time.empty()) {
+        std::vector<std::string> keys = {"unit = \"s\""};
+        if (a.time != time_column) keys.push_back(fmt::format("column = \"{}\"", time_column));
+        edits.declare(model.signals, "signals", a.time, keys, a.because);
+    }
+    for (const NewState& s : a.states) {
+        std::vector<std::string> keys = {fmt::format("initial = {}", s.initial), "scored = false"};
+        if (!s.unit.empty()) keys.insert(keys.begin(), "unit = \"" + s.unit + "\"");
+        edits.declare(model.signals, "signals", s.name, keys, a.because);
+        edits.add_equation(s);
+    }
+    for (const NewName& n : a.names) {
+        if (n.let_go) {
+            if (!edits.let_go(n)) return "";
+        } else if (n.constant) {
+            edits.declare(model.constants, "constants", n.name, keys_of(n), a.because);
+        } else {
+            edits.declare(model.parameters, "parameters", n.name, keys_of(n), a.because);
+        }
+    }
+    return edits.done();
 }
 
 std::string amended_in_turn(const std::string& text, const std::string& path, const std::vector<Amendment>& amendments) {

@@ -30,10 +30,8 @@ std::vector<NamedParameter> parameters(const Variant& v) {
 
 NamedEffect named(const Variant& v, const Amendment& a, const std::vector<Effect>& effects) {
     NamedEffect out{a.effect, {}, {}, {}, {}, {}};
-    for (std::size_t k = 0; k < a.equations.size(); ++k) {
-        out.equation += (k > 0 ? ", " : "") + v.whole.equations[a.equations[k]].name;
-        out.term += (k > 0 ? ", " : "") + a.terms[k];
-    }
+    out.equation = place(a, v.whole);
+    out.term = change(a);
     const auto effect = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == a.effect; });
     out.summary = effect->summary;
     out.shows = effect->shows;
@@ -73,6 +71,7 @@ std::string text_with_fitted_values(const Variant& nominal, const Variant& best)
         for (NewName& n : a.names) {
             const int p = best.model.parameter_index(n.name);
             if (p >= 0) n.value = best.fit.parameters[static_cast<std::size_t>(p)];
+            n.constant = n.scanned;   // an estimator is linear in what it estimates
         }
     }
     return amended_in_turn(nominal.text, nominal.model.path, fitted);

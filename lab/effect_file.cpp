@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/effect_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "generator/names.hpp"
 #include "generator/suggestion.hpp"
 #include "generator/toml_file.hpp"
 #include "generator/units.hpp"
+#include "lab/effect_edits.hpp"
 #include "lab/effect_term.hpp"
 #include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
@@ -27,22 +30,47 @@ public:
     Reading(TomlAccess& file, Effect& effect) : file_(file), effect_(effect) {}
 
     void read(const toml::table& root) {
-        file_.known_keys(root, {"format", "name", "aliases", "summary", "shows", "reference", "outside", "enters", "roles", "rewrite", "parameter", "scan", "rival"});
+        file_.known_keys(root, {"format", "name", "aliases", "summary", "shows", "reference", "outside", "enters", "roles", "rewrite", "edit", "state", "parameter", "scan", "rival"});
         read_head(root);
-        if (const toml::table* t = needed_table(root, "enters", "say which equations it may enter: units = [\"N.m\"]")) read_enters(*t);
+        read_kind(root);
+        if (const toml::table* t = entered_table(root)) read_enters(*t);
         if (const toml::table* t = file_.subtable(root, "roles")) read_roles(*t);
         for (const char* key : {"roles", "parameter", "scan"}) names_known_ = names_known_ && is_declared_right(root, key);
+        read_names_of_states(root);
         const toml::table* rewrite = needed_table(root, "rewrite", "write what it adds: kind = \"add_term\", term = \"-Tc*sgn({speed})\"");
         in_a_frame_ = rewrite != nullptr && rewrite->contains("d");
+        if (effect_.rewrite == Rewrite::add_term) {
+            for (const char* key : {"edit", "state"}) if (root.contains(key)) file_.error(*root.get(key), "[[" + std::string(key) + "]] beside kind = \"add_term\"", "write another kind, or leave it out");
+        }
         file_.each_table(root, "parameter", [&](const toml::table& t) { read_parameter(t); });
-        if (!root.contains("parameter")) file_.error(top, "no [[parameter]]", "declare what is fitted: name = \"Tc\", unit = \"{equation}\"");
+        if (!root.contains("parameter") && needs_a_parameter(root)) file_.error(top, "no [[parameter]]", "declare what is fitted: name = \"Tc\", unit = \"{equation}\"");
         file_.each_table(root, "scan", [&](const toml::table& t) { read_scan(t); });
         file_.each_table(root, "rival", [&](const toml::table& t) { read_rival(t); });
-        if (rewrite != nullptr) read_rewrite(*rewrite);
+        if (rewrite == nullptr) return;
+        if (effect_.rewrite == Rewrite::add_term) read_rewrite(*rewrite);
+        else read_edits(root, *rewrite);
     }
 
 private:
     static constexpr Position top = {1, 1};
+
+    /// What the rewrite does decides what else there has to be.
+    void read_kind(const toml::table& root) {
+        const toml::node* node = root.get("rewrite");
+        if (node == nullptr || !node->is_table()) return;
+        file_.choose<Rewrite>(*node->as_table(), "kind", {{"add_term", Rewrite::add_term}, {"replace", Rewrite::replace}, {"transform_signal", Rewrite::transform_signal},
+                                                           {"add_state", Rewrite::add_state}, {"free_constant", Rewrite::free_constant}}, effect_.rewrite, "kind of rewrite");
+    }
+
+    bool needs_a_parameter(const toml::table& root) const {
+        return effect_.rewrite == Rewrite::add_term || (effect_.rewrite != Rewrite::free_constant && !root.contains("scan"));
+    }
+
+    /// A term has the unit of an equation; what else is done to an equation does not hang on it.
+    const toml::table* entered_table(const toml::table& root) {
+        if (effect_.rewrite != Rewrite::add_term && !root.contains("enters")) return nullptr;
+        return needed_table(root, "enters", "say which equations it may enter: units = [\"N.m\"]");
+    }
 
     const toml::table* needed_table(const toml::table& root, std::string_view key, const std::string& right) {
         if (!root.contains(key)) file_.error(top, "no [" + std::string(key) + "]", right);
@@ -50,9 +78,9 @@ private:
     }
 
     /// False for a section of another type, of which there is a complaint elsewhere: the names that it was to declare are not known.
-    static bool is_declared_right(const toml::table& root, const std::string& key) {
+    bool is_declared_right(const toml::table& root, const std::string& key) const {
         const toml::node* node = root.get(key);
-        return node == nullptr ? key != "parameter" : key == "roles" ? node->is_table() : node->is_array_of_tables();
+        return node == nullptr ? key != "parameter" || !needs_a_parameter(root) : key == "roles" ? node->is_table() : node->is_array_of_tables();
     }
 
     /// A text that must be there and say something; empty after a complaint. at: of the table it is missing from.
@@ -102,6 +130,10 @@ private:
     void read_enters(const toml::table& t) {
         file_.known_keys(t, {"units", "together"});
         const bool missing = !t.contains("units");
+        if (missing && effect_.rewrite != Rewrite::add_term) {
+            effect_.together = file_.boolean(t, "together").value_or(false);
+            return;
+        }
         std::vector<PlacedText> units = file_.strings(t, "units", "[\"N.m\", \"N\"]");
         if (missing || (t.get("units")->is_array() && t.get("units")->as_array()->empty())) {
             file_.error(missing ? model::position(t) : model::position(*t.get("units")), "no units of equations that it may enter", "write units = [\"N.m\", \"N\"]");
@@ -111,6 +143,12 @@ private:
             effect_.units.push_back(std::move(unit.text));
         }
         effect_.together = file_.boolean(t, "together").value_or(false);
+    }
+
+    /// Before anything refers to them.
+    void read_names_of_states(const toml::table& root) {
+        if (effect_.rewrite == Rewrite::add_term) return;
+        file_.each_table(root, "state", [&](const toml::table& t) { effect_.states.push_back({take_name(t, "u_act"), "", 0, ""}); });
     }
 
     void read_roles(const toml::table& t) {
@@ -170,31 +208,69 @@ private:
     }
 
     void read_parameter(const toml::table& t) {
-        file_.known_keys(t, {"name", "unit", "min"});
+        file_.known_keys(t, {"name", "unit", "min", "neutral"});
         EffectParameter p{take_name(t, "Tc"), unit_of(t, "{equation}"), std::nullopt};
+        read_neutral(t, p);
         if (const auto min = file_.number(t, "min")) p.min = exact::nearest(*min, plan::Scalar::float64);
         if (!p.name.empty()) effect_.parameters.push_back(std::move(p));
     }
 
+    /// A number, or the {role} of a parameter or constant.
+    void read_neutral(const toml::table& t, EffectParameter& p) {
+        const toml::node* node = t.get("neutral");
+        if (node == nullptr) return;
+        if (effect_.rewrite == Rewrite::add_term) {
+            file_.error(*node, "'neutral' of a term", "a term does nothing where its parameter is 0: leave it out");
+        } else if (!node->is_string()) {
+            if (const auto value = file_.number(t, "neutral")) p.neutral = fmt::format("{}", exact::nearest(*value, plan::Scalar::float64));
+        } else if (const auto role = role_in_braces(*node->value<std::string>(), effect_)) {
+            p.neutral = "{" + *role + "}";
+        } else {
+            file_.error(*node, quoted(*node->value<std::string>()) + " is no value at which the effect does nothing", "write a number, or the {role} of what it replaces");
+        }
+    }
+
     void read_scan(const toml::table& t) {
-        file_.known_keys(t, {"name", "unit", "from", "to", "step", "spectrum"});
+        file_.known_keys(t, {"name", "unit", "from", "to", "step", "factor", "of", "fitted", "spectrum"});
         if (effect_.scans.size() == 1) {
             file_.error(t, "a second [[scan]]", "an effect scans one number at most");
             names_known_ = false;
             return;
         }
         EffectScan s{take_name(t, "N"), unit_of(t, "1"), 1, 1, 1, file_.boolean(t, "spectrum").value_or(false)};
+        s.fitted = file_.boolean(t, "fitted").value_or(false);
+        read_reference(t, s);
         if (s.spectrum) read_spectrum(t, s);
         else read_range(t, s);
         effect_.scans.push_back(std::move(s));   // nameless after a complaint: a second one is still one too many
     }
 
     void read_spectrum(const toml::table& t, const EffectScan& s) {
-        for (const char* key : {"from", "to", "step"}) if (t.contains(key)) file_.error(*t.get(key), quoted(key) + " beside spectrum = true", "leave one of the two out");
+        for (const char* key : {"from", "to", "step", "factor", "of", "fitted"}) if (t.contains(key)) file_.error(*t.get(key), quoted(key) + " beside spectrum = true", "leave one of the two out");
         const auto unit = units::Unit::parse(s.unit);
         const auto wanted = units::Unit::parse("rad/s");
         const bool fits = unit && unit->same_dimension(*wanted) && unit->factor_to(*wanted) == 1.0;
         if (t.contains("unit") && unit && !fits) file_.error(*t.get("unit"), "a number of the spectrum in " + quoted(s.unit), "write unit = \"rad/s\"");
+    }
+
+    /// What the range is counted in.
+    void read_reference(const toml::table& t, EffectScan& s) {
+        const auto of = file_.string(t, "of");
+        if (!of) return;
+        const auto role = role_in_braces(*of, effect_);
+        if (role || *of == "period" || *of == "duration") s.of = role.value_or(*of);
+        else file_.error(*t.get("of"), quoted(*of) + " is nothing that a range can be counted in", "write \"period\", \"duration\", or a {role} of [roles]");
+    }
+
+    void read_factor(const toml::table& t, EffectScan& s, bool range_known) {
+        const auto factor = file_.number(t, "factor");
+        if (t.contains("step")) file_.error(*t.get("step"), "'step' beside 'factor'", "leave one of the two out");
+        if (!factor) return;
+        s.step = 0;
+        s.factor = exact::nearest(*factor, plan::Scalar::float64);
+        if (!(s.factor >= 1.01)) file_.error(*t.get("factor"), "'factor' is below 1.01", "write a number such as 1.5");
+        else if (range_known && !(s.from > 0)) file_.error(*t.get("from"), "'from' is not positive, and a factor leads nowhere from it", "write a number above 0");
+        else if (range_known && !(s.from < s.to)) file_.error(*t.get("to"), "to is not above from", "swap them");
     }
 
     void read_range(const toml::table& t, EffectScan& s) {
@@ -206,6 +282,10 @@ private:
         };
         const bool from = number("from", s.from);   // all three: each has its own complaint
         const bool to = number("to", s.to);
+        if (t.contains("factor")) {
+            read_factor(t, s, from && to);
+            return;
+        }
         if (!number("step", s.step)) return;
         if (!(s.step > 0)) {
             file_.error(*t.get("step"), "'step' is not positive", "write a number above 0");
@@ -232,17 +312,28 @@ private:
     void read_rewrite(const toml::table& t) {
         file_.known_keys(t, {"kind", "term", "d", "q"});
         if (!t.contains("kind")) file_.error(t, "no kind", "add kind = \"add_term\"");
-        std::string kind;
-        file_.choose<std::string>(t, "kind", {{"add_term", "add_term"}}, kind, "kind of rewrite");
         std::set<std::string> used;
         effect_.term = term(t, "term", placeholders_of(effect_), used);
         if (!t.contains("term")) file_.error(t, "no term", "add term = \"-Tc*sgn({speed})\"");
         if (t.contains("d") != t.contains("q")) file_.error(t, t.contains("d") ? "d without q" : "q without d", "write both terms of a rotating frame, or neither");
         effect_.d_term = term(t, "d", axes_of_a_frame(), used);
         effect_.q_term = term(t, "q", axes_of_a_frame(), used);
+        say_unused(used);
+    }
+
+    /// What is declared and stands nowhere.
+    void say_unused(const std::set<std::string>& used) {
         if (!file_.sound()) return;   // what a term that is wrong would have used is not known
         for (const auto& [name, at] : places_) if (used.count(name) == 0) file_.error(at, quoted(name) + " stands in no term", "use it, or remove it");
         for (const auto& [role, at] : role_places_) if (used.count("{" + role + "}") == 0) file_.error(at, "{" + role + "} stands in no term", "use it, or remove it");
+    }
+
+    void read_edits(const toml::table& root, const toml::table& rewrite) {
+        file_.known_keys(rewrite, effect_.rewrite == Rewrite::free_constant ? std::vector<std::string>{"kind", "what"} : std::vector<std::string>{"kind"});
+        EditReading reading{file_, effect_, names_known_, {}};
+        reading.read(root, rewrite);
+        if (!effect_.scans.empty() && effect_.roles.count(effect_.scans[0].of) > 0) reading.used.insert("{" + effect_.scans[0].of + "}");
+        say_unused(reading.used);
     }
 
     std::string term(const toml::table& t, std::string_view key, const Placeholders& placeholders, std::set<std::string>& used) {

@@ -118,7 +118,7 @@ private:
         };
         add_signal(other_side);
         for (const auto& [name, units] : placeholders_) add_signal(name);
-        for (const EffectScan& s : effect_.scans) out.constants.push_back({s.name, {}, s.unit, exact::from_double(s.to != 0 ? s.to : s.from)});
+        for (const EffectScan& s : effect_.scans) out.constants.push_back({s.name, {}, "", exact::from_double(s.to != 0 ? s.to : s.from)});
         for (const EffectParameter& p : effect_.parameters) out.parameters.push_back({p.name, {}, "", {}, {}, {}});
         model::Equation e;
         e.file = file_.path();
@@ -173,6 +173,10 @@ private:
             for (std::size_t k = 0; k < effect_.parameters.size(); ++k) {
                 const std::string text = filled(effect_.parameters[k].unit, known);
                 probe.parameters[k].unit = text.find('{') == std::string::npos ? text : "";
+            }
+            for (std::size_t k = 0; k < effect_.scans.size(); ++k) {
+                const std::string text = filled(effect_.scans[k].unit, known);
+                probe.constants[k].unit = text.find('{') == std::string::npos ? text : "";
             }
             Diagnostics said;
             model::check_dimension(probe, probe.equations[0], said);

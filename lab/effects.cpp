@@ -7,6 +7,7 @@
 
 #include "generator/dimension.hpp"
 #include "generator/units.hpp"
+#include "lab/bound_edits.hpp"
 #include "lab/effect_file.hpp"
 #include "lab/roles.hpp"
 #include "lab/rotating_frame.hpp"
@@ -14,6 +15,57 @@
 namespace algest::lab {
 
 using units::Unit;
+
+namespace {
+
+/// The first of the effect's units that an equation fits; nullopt: none. An effect that names none fits every equation.
+std::optional<std::string> unit_that_fits(const Effect& effect, const model::Model& model, std::size_t equation) {
+    if (effect.units.empty()) return "";
+    const Unit unit = model::unit_of_equation(model, model.equations[equation]);
+    const auto spelling = std::find_if(effect.units.begin(), effect.units.end(), [&](const std::string& u) { return fits(unit, u); });
+    return spelling == effect.units.end() ? std::nullopt : std::optional(*spelling);
+}
+
+/// Every combination of what may stand for the roles in an equation.
+std::vector<Binding> with_roles(const Effect& effect, const model::Model& model, std::size_t equation, const std::vector<bool>& measured, const std::string& unit) {
+    std::vector<Binding> open = {{&effect, {equation}, {effect.term}, {{}}, {}, unit}};
+    for (const auto& [role, kind] : effect.roles) {
+        std::vector<Binding> next;
+        const std::vector<Filler> choices = fillers(kind, model, equation, measured);
+        for (const Binding& b : open) {
+            for (const Filler& filler : choices) {
+                Binding bound = b;
+                bound.roles[0][role] = filler.formula;
+                bound.role_units[role] = filler.unit;
+                next.push_back(std::move(bound));
+            }
+        }
+        open = std::move(next);
+    }
+    return open;
+}
+
+/// One binding to all places at once.
+Binding joined(const std::vector<Binding>& places) {
+    Binding all = places[0];
+    for (std::size_t k = 1; k < places.size(); ++k) {
+        const Binding& b = places[k];
+        all.equations.insert(all.equations.end(), b.equations.begin(), b.equations.end());
+        all.terms.insert(all.terms.end(), b.terms.begin(), b.terms.end());
+        all.roles.insert(all.roles.end(), b.roles.begin(), b.roles.end());
+        for (Substitution s : b.substitutions) {
+            s.state_set = k;
+            all.substitutions.push_back(std::move(s));
+        }
+        for (BoundState s : b.states) {
+            s.state_set = k;
+            all.states.push_back(std::move(s));
+        }
+    }
+    return all;
+}
+
+}  // namespace
 
 std::vector<Effect> read_effects(const std::vector<std::string>& folders, Diagnostics& diagnostics) {
     std::map<std::string, Effect> by_name;
@@ -40,37 +92,19 @@ std::vector<Binding> bindings(const Effect& effect, const model::Model& model, c
     const auto frame = effect.d_term.empty() ? std::nullopt : rotating_frame(model, measured);
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
         if (moved(model, model.equations[e]).signal < 0 || model.equations[e].sides.right == nullptr) continue;
-        const Unit unit = model::unit_of_equation(model, model.equations[e]);
-        const auto spelling = std::find_if(effect.units.begin(), effect.units.end(), [&](const std::string& u) { return fits(unit, u); });
-        if (spelling == effect.units.end()) continue;
+        const auto unit = unit_that_fits(effect, model, e);
+        if (!unit) continue;
         if (frame && (e == frame->d_equation || e == frame->q_equation)) {
             const std::map<std::string, std::string> axes = {{"d", frame->d_current}, {"q", frame->q_current}, {"angle", frame->angle}};
-            out.push_back({&effect, {e}, {e == frame->d_equation ? effect.d_term : effect.q_term}, {axes}, {}, *spelling});
+            out.push_back({&effect, {e}, {e == frame->d_equation ? effect.d_term : effect.q_term}, {axes}, {}, *unit});
             continue;
         }
-        std::vector<Binding> open = {{&effect, {e}, {effect.term}, {{}}, {}, *spelling}};
-        for (const auto& [role, kind] : effect.roles) {
-            std::vector<Binding> next;
-            for (const Binding& b : open) {
-                for (const Filler& filler : fillers(kind, model, e, measured)) {
-                    Binding bound = b;
-                    bound.roles[0][role] = filler.formula;
-                    bound.role_units[role] = filler.unit;
-                    next.push_back(std::move(bound));
-                }
-            }
-            open = std::move(next);
+        for (Binding& b : with_roles(effect, model, e, measured, *unit)) {
+            if (effect.rewrite == Rewrite::add_term) out.push_back(std::move(b));
+            else if (bind_edits(b, model, measured) && !is_bound_already(b, out)) out.push_back(std::move(b));
         }
-        out.insert(out.end(), open.begin(), open.end());
     }
-    if (!effect.together || out.size() < 2) return out;
-    Binding all = out[0];
-    for (std::size_t k = 1; k < out.size(); ++k) {
-        all.equations.push_back(out[k].equations[0]);
-        all.terms.push_back(out[k].terms[0]);
-        all.roles.push_back(out[k].roles[0]);
-    }
-    return {all};
+    return effect.together && out.size() > 1 ? std::vector<Binding>{joined(out)} : out;
 }
 
 }  // namespace algest::lab

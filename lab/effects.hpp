@@ -15,6 +15,22 @@ namespace algest::lab {
 /// and a second one of a folder with the same name, is an error in `diagnostics`.
 std::vector<Effect> read_effects(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
+/// What takes another's place in an equation.
+struct Substitution {
+    std::size_t equation;
+    std::string what;         ///< a name, or a difference of two in parentheses
+    std::string by;
+    std::string derivative;   ///< of a signal: what takes the place of its der(), {derivative} standing for it; empty: it stays
+    Part part = Part::everywhere;
+    std::size_t state_set = 0;   ///< whose states stand in `by`
+};
+
+/// A hidden state of one of several places that an effect enters at once.
+struct BoundState {
+    EffectState state;
+    std::size_t state_set = 0;
+};
+
 /// One way in which an effect may enter a model.
 struct Binding {
     const Effect* effect;
@@ -23,6 +39,9 @@ struct Binding {
     std::vector<std::map<std::string, std::string>> roles;   ///< by equation: placeholder -> formula, e.g. speed -> der(x)
     std::map<std::string, std::string> role_units;  ///< placeholder -> unit text
     std::string unit;                               ///< of the equation, as the effect spells it
+    std::vector<Substitution> substitutions = {};
+    std::vector<BoundState> states = {};
+    std::string freed = {};                         ///< the constant that is let go
 };
 
 /// Every binding of an effect to a model whose signals are measured as said. An equation of unknown unit takes effects that fit

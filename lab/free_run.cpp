@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "generator/tape.hpp"
+#include "lab/past.hpp"
 
 namespace algest::lab {
 
@@ -19,8 +20,6 @@ constexpr double largest_excursion = 1e6;      ///< times the scale: diverged
 constexpr int most_steps_in_a_span = 20000;    ///< stiffer than that is a diverged run too,
 constexpr std::size_t most_steps_a_sample = 30;    ///< and so is more than this on average
 
-constexpr double layer_width = 2e-2;           ///< half of it, in typical sizes of its argument: the ripple of a phase current
-
 /// Where a relay stands.
 enum class Mode { negative, holding, positive };
 
@@ -31,6 +30,7 @@ public:
           values_(system.residual.operations.size()), results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
           mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())),
           residual_(static_cast<Eigen::Index>(system.moving.size())), slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
+        set_delays(parameters);
         for (std::size_t p = 0; p < parameters.size(); ++p) inputs_[static_cast<std::size_t>(system.parameter_input) + p] = parameters[p];
         for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
         scale_ = options.scale;
@@ -38,7 +38,7 @@ public:
     }
 
     FreeRun over(const std::vector<double>& initial, const std::function<void(double)>& progress) {
-        FreeRun out{std::vector<std::vector<double>>(drive_.values.size()), 0};
+        out_ = {std::vector<std::vector<double>>(drive_.values.size()), 0};
         State x = initial;
         const std::size_t end = options_.end > 0 ? options_.end : drive_.samples;
         step_ = span_;
@@ -47,17 +47,21 @@ public:
         for (std::size_t k = options_.first; k < end; k += options_.stride) {
             sample_ = k;
             set_state(x);
+            since_ = 0.0;
             set_driven(0.0);
+            set_past();
             apply_laws();
-            record(out);
-            ++out.samples;
+            record();
+            ++out_.samples;
             if (k + options_.stride >= end) break;
-            choose_modes(x);
+            choose_modes(x, 0.0);
+            keep_slopes_ahead(x);
             if (!advance(x)) break;
+            keep_past(x);
             if (progress && k % 1024 == 0) progress(static_cast<double>(k) / static_cast<double>(drive_.samples));
         }
         if (options_.effort != nullptr) options_.effort->spent += static_cast<double>(evaluations_) * static_cast<double>(system_.residual.operations.size());
-        return out;
+        return std::move(out_);
     }
 
 private:
@@ -78,6 +82,68 @@ private:
             const bool held = drive_.held[static_cast<std::size_t>(s)] || sample_ + 1 >= v.size();
             inputs_[static_cast<std::size_t>(s)] = held ? v[sample_] : v[sample_] + fraction * (v[sample_ + 1] - v[sample_]);
         }
+        for (std::size_t d = 0; d < system_.delays.size(); ++d) {
+            if (!system_.delays[d].moves) delayed_input(d) = delayed_value(d, fraction);
+        }
+    }
+
+    double& delayed_input(std::size_t d) { return inputs_[static_cast<std::size_t>(system_.delay_input) + d]; }
+
+    /// How long ago each delayed signal is, and where in a period such a signal has a sample: a step ends there.
+    void set_delays(const std::vector<double>& parameters) {
+        for (const DelayedSignal& d : system_.delays) {
+            ago_.push_back(samples_ago(d.parameter < 0 ? d.by : parameters[static_cast<std::size_t>(d.parameter)], span_));
+            if (!d.moves && ago_.back().rest > 0) breaks_.push_back(ago_.back().rest * span_);
+            past_.emplace_back();
+        }
+        std::sort(breaks_.begin(), breaks_.end());
+    }
+
+    /// Of a recorded input, or of what a law has held so far.
+    double delayed_value(std::size_t d, double fraction) const {
+        const std::size_t s = static_cast<std::size_t>(system_.delays[d].signal);
+        const std::vector<double>& recorded = drive_.values[s];
+        if (!recorded.empty()) return past_value(recorded, drive_.held[s], sample_, fraction, since_, ago_[d]);
+        const std::vector<double>& held = out_.signals[s];
+        return held.empty() ? 0.0 : past_value(held, true, sample_ - options_.first, fraction, since_, ago_[d]);
+    }
+
+    std::size_t entry_of(int signal) const {
+        std::size_t i = 0;
+        while (system_.states[i].signal != signal || system_.states[i].order != 0) ++i;
+        return i;
+    }
+
+    /// The past of signals that move, at the present sample.
+    void set_past() {
+        for (std::size_t d = 0; d < past_.size(); ++d) {
+            if (!system_.delays[d].moves) continue;
+            if (past_[d].value.empty()) {   // the run starts
+                past_[d].value.push_back(inputs_[static_cast<std::size_t>(system_.delays[d].signal)]);
+                past_[d].slope_behind.push_back(0.0);
+            }
+            delayed_input(d) = past_value(past_[d], ago_[d]);
+        }
+    }
+
+    void keep_slopes_ahead(const State& x) {
+        bool asked = false;
+        for (const DelayedSignal& d : system_.delays) asked = asked || d.moves;
+        if (!asked) return;
+        rate(x, slope_, 0.0);
+        for (std::size_t d = 0; d < past_.size(); ++d) {
+            if (system_.delays[d].moves) past_[d].slope_ahead.push_back(slope_[entry_of(system_.delays[d].signal)] * span_);
+        }
+    }
+
+    /// After a step that ended at a sample.
+    void keep_past(const State& x) {
+        for (std::size_t d = 0; d < past_.size(); ++d) {
+            if (!system_.delays[d].moves) continue;
+            const std::size_t entry = entry_of(system_.delays[d].signal);
+            past_[d].value.push_back(x[entry]);
+            past_[d].slope_behind.push_back(slope_ahead_[entry] * span_);
+        }
     }
 
     void apply_laws() {
@@ -89,8 +155,8 @@ private:
         }
     }
 
-    void record(FreeRun& out) const {
-        const auto keep = [&](int signal) { out.signals[static_cast<std::size_t>(signal)].push_back(inputs_[static_cast<std::size_t>(signal)]); };
+    void record() {
+        const auto keep = [&](int signal) { out_.signals[static_cast<std::size_t>(signal)].push_back(inputs_[static_cast<std::size_t>(signal)]); };
         for (const int s : system_.moving) keep(s);
         for (const Law& law : system_.laws) keep(law.signal);
     }
@@ -178,7 +244,7 @@ private:
                 evaluate();
                 size = std::max(size, std::abs(results_[static_cast<std::size_t>(l.argument)]));
             }
-            inputs_[static_cast<std::size_t>(l.width)] = layer_width * (size > 0 ? size : 1.0);
+            inputs_[static_cast<std::size_t>(l.width)] = options_.layer_width * (size > 0 ? size : 1.0);
         }
     }
 
@@ -211,10 +277,10 @@ private:
     double argument_tolerance(std::size_t r) const { return 1e-9 * std::max(argument_scale_.size() > r ? argument_scale_[r] : 0.0, 1e-12); }
 
     /// At the start of a period, where inputs may jump: on which side each relay is, or whether it holds.
-    void choose_modes(const State& x) {
+    void choose_modes(const State& x, double fraction) {
         argument_scale_.resize(modes_.size(), 0.0);
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            const double g = argument_at(r, x, 0.0);
+            const double g = argument_at(r, x, fraction);
             argument_scale_[r] = std::max(argument_scale_[r], std::abs(g));
             if (std::abs(g) > argument_tolerance(r)) modes_[r] = g > 0 ? Mode::positive : Mode::negative;
             else choose_at_zero(r, x);
@@ -238,6 +304,7 @@ private:
 
     /// One step of size h from (x, t in the period); the largest error over the states, relative to the tolerance.
     double attempt(const State& x, double t, double h, State& next) {
+        since_ = t / span_;
         const auto flow = [&](const State& s, State& out, double at) { rate(s, out, at / span_); };
         flow(x, slope_, t);   // afresh: a switch, or a step that was refused, may lie between this step and the last
         stepper_.do_step(flow, x, slope_, t, next, slope_ahead_, h, error_);
@@ -263,11 +330,22 @@ private:
 
     /// Through the span to the next kept sample; false where the run diverges.
     bool advance(State& x) {
-        double t = 0;
+        double from = 0;
+        for (const double stop : breaks_) {
+            if (!(stop > from)) continue;
+            if (!advance(x, from, stop)) return false;
+            from = stop;
+            since_ = stop / span_;
+            choose_modes(x, since_);
+        }
+        return advance(x, from, span_);
+    }
+
+    bool advance(State& x, double t, double end) {
         State next(x.size());
-        for (int steps = 0; t < span_ * (1 - 1e-12); ++steps) {
+        for (int steps = 0; t < end - span_ * 1e-12; ++steps) {
             if (steps > most_steps_in_a_span || ++steps_taken_ > most_steps_a_sample * drive_.samples) return false;
-            double h = std::min(step_, span_ - t);
+            double h = std::min(step_, end - t);
             const double error = attempt(x, t, h, next);
             if (!(error <= 1.0)) {
                 step_ = h * std::max(0.1, std::isfinite(error) ? 0.9 * std::pow(error, -0.2) : 0.1);
@@ -328,6 +406,7 @@ private:
     const OdeSystem& system_;
     const Drive& drive_;
     const RunOptions& options_;
+    FreeRun out_;
     std::vector<double> inputs_;
     std::vector<double> values_;
     std::vector<double> results_;
@@ -344,6 +423,10 @@ private:
     std::vector<std::size_t> entry_input_;
     std::vector<double> scale_;
     std::vector<double> argument_scale_;
+    std::vector<SamplesAgo> ago_;        ///< by delayed signal
+    std::vector<double> breaks_;         ///< s into a span
+    std::vector<MovingPast> past_;       ///< by delayed signal; empty for those that do not move
+    double since_ = 0;                   ///< part of the span at which the present step began
     double span_;           ///< s, from one kept sample to the next
     std::size_t sample_ = 0;
     std::size_t steps_taken_ = 0;

@@ -32,18 +32,25 @@ struct Effort {
     bool used_up() const { return spent >= limit; }
 };
 
+/// Half the width over which a sgn() of several signals rises, in typical sizes of its argument: what the ripple of a phase current blurs,
+/// and what an ideal switch comes near to, at three times the cost.
+constexpr double blurred_layer = 2e-2;
+constexpr double thin_layer = 5e-3;
+
 struct RunOptions {
     double tolerance = 1e-8;                      ///< local, relative to the scale of each state
     std::vector<double> scale;                    ///< by state entry: typical size; a run beyond 1e6 times it has diverged
     std::size_t first = 0;                        ///< sample at which the run starts
     std::size_t end = 0;                          ///< sample before which it ends; 0: where the drive does
     std::size_t stride = 1;                       ///< every how many samples the run is kept; above 1 for systems that nothing drives
+    double layer_width = blurred_layer;
     Effort* effort = nullptr;                     ///< that every run adds its own to
 };
 
 /// Integrates from `initial` (one value per state entry) with a Dormand-Prince step of controlled size inside each period, inputs as
 /// they are held. A sgn() is a relay: a step never straddles its switch, and where the motion holds its argument at zero
-/// (sticking friction) the relay takes the value that keeps it there, so no width of smoothing enters.
+/// (sticking friction) the relay takes the value that keeps it there, so no width of smoothing enters. No step straddles a sample of a
+/// delayed input either; before its first sample such a signal has its first value.
 /// Cost: samples times at least six evaluations of the residual's tape per highest derivative and one.
 FreeRun free_run(const OdeSystem& system, const std::vector<double>& parameters, const std::vector<double>& initial, const Drive& drive,
                  const RunOptions& options, const std::function<void(double)>& progress = {});

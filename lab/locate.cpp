@@ -12,7 +12,6 @@ namespace algest::lab {
 
 namespace {
 
-constexpr int intervals_of_a_residual = 32;
 constexpr double least_explained = 0.1;       ///< of a residual by one signal, to be called its region
 
 /// As an engineer writes it, where UDUNITS would print base units.
@@ -73,16 +72,39 @@ std::string in_words(const Region& region, const model::Model& model) {
 std::vector<double> as_vector(const Eigen::VectorXd& r) { return {r.data(), r.data() + r.size()}; }
 
 /// What a window makes of a constant 1: residuals over it are means in the equation's own unit, late and early samples counting less.
-double window_weight(const Variant& v, std::size_t e) {
+/// Negative where the equation is of odd order.
+double window_weight(const Variant& v, std::size_t e, int intervals) {
     double sum = 0;
-    for (const double w : row_weights(v.model, e, intervals_of_a_residual)) sum += w;
+    for (const double w : row_weights(v.model, e, intervals)) sum += w;
     return sum;
 }
 
 /// Parameters of one equation that fit it best on the training rows.
-std::vector<double> own_parameters(const Workbench& bench, const Variant& v, std::size_t e) {
-    const auto form = weak_form(v.model, v.bench, e, bench.parts().train, intervals_of_a_residual);
+std::vector<double> own_parameters(const Workbench& bench, const Variant& v, std::size_t e, int intervals) {
+    const auto form = weak_form(v.model, v.bench, e, bench.parts().train, intervals);
     return form ? weak_fit(*form, v.fit.parameters).parameters : v.fit.parameters;
+}
+
+/// Standard deviation that the sensors' noise gives to a residual of the weak form.
+double noise_of_rows(const Workbench& bench, const Variant& v, std::size_t e, int intervals, const std::vector<double>& parameters) {
+    return weak_noise(v.model, v.bench, e, bench.parts().train, intervals, parameters, noise_by_signal(v.model, v.bench));
+}
+
+/// The length of window whose residual stands highest above its noise: short ones drown in noise, long ones average over what is missing.
+int telling_intervals(const Workbench& bench, const Variant& v, std::size_t e) {
+    double highest = -1;
+    int out = 0;
+    for (const int intervals : weak_intervals(bench.parts().train)) {
+        const auto form = weak_form(v.model, v.bench, e, bench.parts().train, intervals);
+        if (!form) continue;
+        const std::vector<double> own = weak_fit(*form, v.fit.parameters).parameters;
+        const double residual = std::sqrt(weak_residual(*form, own).squaredNorm() / static_cast<double>(form->centre.size()));
+        const double above = residual / std::max(noise_of_rows(bench, v, e, intervals, own), 1e-300);
+        if (above <= highest) continue;
+        highest = above;
+        out = intervals;
+    }
+    return out;
 }
 
 /// Values of a residual, each at a row of the recording.
@@ -119,14 +141,16 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
     const Rows all = {0, bench.recording().samples()};
     std::vector<EquationResidual> out;
     for (std::size_t e = 0; e < nominal.model.equations.size(); ++e) {
-        const std::vector<double> parameters = own_parameters(bench, nominal, e);
-        const auto form = weak_form(nominal.model, nominal.bench, e, all, intervals_of_a_residual);
-        if (!form) continue;
+        const int intervals = telling_intervals(bench, nominal, e);
+        if (intervals == 0) continue;   // a signal of it is not measured
+        const std::vector<double> parameters = own_parameters(bench, nominal, e, intervals);
+        const auto form = weak_form(nominal.model, nominal.bench, e, all, intervals);
+        const double weight = window_weight(nominal, e, intervals);
         EquationResidual r{nominal.model.equations[e].name, spelled(model::unit_of_equation(nominal.model, nominal.model.equations[e])), {}, {}, {}, 0, {}, {}, {}, {}};
         for (const std::size_t row : form->centre) r.t.push_back(bench.recording().t[row]);
         const Eigen::VectorXd before = weak_residual(*form, parameters);
-        r.before = as_vector(before / window_weight(nominal, e));
-        r.noise = weak_noise(nominal.model, nominal.bench, e, bench.parts().train, intervals_of_a_residual, parameters, noise_by_signal(nominal.model, nominal.bench)) / window_weight(nominal, e);
+        r.before = as_vector(before / weight);
+        r.noise = noise_of_rows(bench, nominal, e, intervals, parameters) / std::abs(weight);
         int against = region_of(nominal, form->centre, before).signal;
         for (const Amendment& a : amended != nullptr ? amended->amendments : std::vector<Amendment>()) {
             const bool enters = std::any_of(a.equations.begin(), a.equations.end(), [&](std::size_t k) { return nominal.whole.equations[k].name == r.equation; });
@@ -139,10 +163,10 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
             r.signal_unit = nominal.model.signals[s].unit;
             for (const std::size_t row : form->centre) r.x.push_back(nominal.bench.measured[s][row]);
         }
-        const auto with = amended != nullptr ? weak_form(amended->model, amended->bench, e, all, intervals_of_a_residual) : std::nullopt;
+        const auto with = amended != nullptr ? weak_form(amended->model, amended->bench, e, all, intervals) : std::nullopt;
         if (with) {
-            const std::vector<double> own = own_parameters(bench, *amended, e);
-            r.after = as_vector(weak_residual(*with, own) / window_weight(nominal, e));
+            const std::vector<double> own = own_parameters(bench, *amended, e, intervals);
+            r.after = as_vector(weak_residual(*with, own) / weight);
             // What the added terms say: the residual without them, less the residual with them.
             std::vector<double> without = own;
             bool enters = false;
@@ -150,7 +174,7 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
                 for (const std::size_t k : a.equations) enters = enters || nominal.whole.equations[k].name == r.equation;
                 for (const NewName& n : a.names) if (!n.constant) without[static_cast<std::size_t>(amended->model.parameter_index(n.name))] = 0;
             }
-            if (enters && !r.x.empty()) r.law = as_vector((weak_residual(*with, without) - weak_residual(*with, own)) / window_weight(nominal, e));
+            if (enters && !r.x.empty()) r.law = as_vector((weak_residual(*with, without) - weak_residual(*with, own)) / weight);
         }
         out.push_back(std::move(r));
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "generator/delay.hpp"
 #include "generator/tape_builder.hpp"
 
 namespace algest::lab {
@@ -40,6 +41,7 @@ public:
         list_states();
         if (!nothing_driven_is_differentiated()) return std::nullopt;
         if (!highest_stand_outside_functions() || !laws_see_states()) return std::nullopt;
+        if (!find_delays()) return std::nullopt;
         number_inputs();
         compile();
         return std::move(out_);
@@ -199,6 +201,26 @@ private:
         }
     }
 
+    /// A delay equation is not simulated: what moves may be delayed where samples are taken, in a law, and nowhere else.
+    bool find_delays() {
+        for (const model::Equation& e : model_.equations) {
+            std::vector<model::Delay> own;
+            for (const Formula* side : {&e.sides.left, &e.sides.right}) model::add_delays(model_, *side, own);
+            for (const model::Delay& d : own) {
+                if (!moves(d.signal)) continue;
+                fail(e.place(d.call->offset), "'" + d.call->arguments[0]->name + "' is delayed in an equation of motion, and an equation moves it: a delay equation cannot be simulated",
+                     "delay an input, or add a state that lags");
+                return false;
+            }
+            for (const Formula* side : {&e.sides.left, &e.sides.right}) model::add_delays(model_, *side, delays_);
+        }
+        for (const model::Feedback& f : model_.feedback) model::add_delays(model_, f.law, delays_);
+        for (const model::Delay& d : delays_) {
+            out_.delays.push_back({d.signal, d.by ? exact::nearest(*d.by, plan::Scalar::float64) : 0.0, d.parameter, moves(d.signal)});
+        }
+        return true;
+    }
+
     void number_inputs() {
         tape_inputs_.signal.resize(model_.signals.size());
         for (std::size_t s = 0; s < model_.signals.size(); ++s) tape_inputs_.signal[s] = out_.inputs++;
@@ -211,6 +233,8 @@ private:
         }
         out_.parameter_input = out_.inputs;
         for (std::size_t p = 0; p < model_.parameters.size(); ++p) tape_inputs_.parameter.push_back(out_.inputs++);
+        out_.delay_input = out_.inputs;
+        for (const model::Delay& d : delays_) tape_inputs_.delay[d.text] = out_.inputs++;
         out_.relay_input = out_.inputs;
         number_switches(tape_inputs_.relay, relay_arguments_, [](const Formula& argument) { return is_lone(argument); });
         number_switches(tape_inputs_.layer, layer_arguments_, [](const Formula& argument) { return !is_lone(argument); });
@@ -270,6 +294,7 @@ private:
     OdeSystem out_;
     std::map<int, int> orders_;
     std::map<int, std::size_t> equation_of_;
+    std::vector<model::Delay> delays_;
     TapeInputs tape_inputs_;
     std::vector<Formula> relay_arguments_;
     std::vector<Formula> layer_arguments_;

@@ -29,6 +29,14 @@ struct Layer {
     int width;      ///< input of the tape that is half its width, in the argument's unit
 };
 
+/// A delayed signal that the tapes read.
+struct DelayedSignal {
+    int signal;
+    double by;       ///< s, where no parameter says it
+    int parameter;   ///< -1: none
+    bool moves;      ///< it is known at samples alone, from the run's own past: no equation of motion reads it
+};
+
 /// A control law that is sampled once a period and held.
 struct Law {
     int signal;          ///< that it sets
@@ -38,17 +46,19 @@ struct Law {
 /// What moves, what is replayed, and the residual  left - right  of every equation, linear in the highest derivatives.
 ///
 /// Inputs of all tapes, in this order: signals (model order), derivatives of states above order 0 and the highest ones
-/// (`derivative_input`), parameters (model order), relays, widths of layers.
+/// (`derivative_input`), parameters (model order), delayed signals, relays, widths of layers.
 struct OdeSystem {
     std::vector<StateEntry> states;        ///< for each moving signal its orders 0, 1, ... in turn
     std::vector<int> moving;               ///< signals with an equation of their own, in the order of the equations
     std::vector<int> highest;              ///< by moving: order of its highest derivative
     std::vector<int> driven;               ///< signals that are replayed from the recording
     std::vector<Law> laws;
+    std::vector<DelayedSignal> delays;
     std::vector<Relay> relays;
     std::vector<Layer> layers;
     std::vector<std::vector<int>> derivative_input;   ///< by moving: tape input of orders 1 .. highest
     int parameter_input = 0;               ///< tape input of the first parameter
+    int delay_input = 0;                   ///< tape input of the first delayed signal
     int relay_input = 0;                   ///< tape input of the first relay
     int inputs = 0;
     plan::Tape residual;                   ///< results: one per moving signal, then the arguments of relays and layers
@@ -59,7 +69,8 @@ struct OdeSystem {
 bool moves(const OdeSystem& system, std::size_t signal);
 
 /// Compiles the equations. Complains (bad input) where there are no equations of motion, where an equation has no derivative of its
-/// own to give, where a highest derivative stands inside a function, or where an input is differentiated.
+/// own to give, where a highest derivative stands inside a function, where an input is differentiated, or where an equation of motion
+/// delays what moves.
 std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics);
 
 }  // namespace algest::lab

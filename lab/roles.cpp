@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "lab/equation_places.hpp"
+#include "lab/rotating_frame.hpp"
+
 namespace algest::lab {
 
 namespace {
@@ -14,13 +17,55 @@ Unit unit_of(const model::Signal& signal) { return signal.unit.empty() ? Unit() 
 
 void find_highest(const formula::Formula& f, const model::Model& model, Moved& out) {
     if (f->kind == formula::Kind::call && f->name == "der") {
-        const int order = f->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(f->arguments[1]->value)) : 1;
+        const int order = order_of_derivative(f);
         if (order > out.order) out = {model.signal_index(f->arguments[0]->name), order};
     }
     for (const formula::Formula& a : f->arguments) find_highest(a, model, out);
 }
 
+std::string unit_of_quantity(const model::Model& model, const std::string& name) {
+    if (const model::Parameter* p = model.parameter(name)) return p->unit;
+    if (const model::Constant* c = model.constant(name)) return c->unit;
+    return "";
+}
+
+bool stands_in(const model::Equation& e, const std::string& name) { return !places_of_name(e, name).empty() || !places_of_derivative(e, name).empty(); }
+
+/// Quantities that are counted or compared have no unit, and nobody is wrong about them.
+bool may_be_wrong(const model::Constant& c) { return !c.unit.empty() && c.unit != "1" && !cln::zerop(c.value); }
+
+/// What stands for the axes and quantities of the frame that an equation is the d equation of.
+std::vector<Filler> fillers_of_frame(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured) {
+    const auto frame = rotating_frame(model, measured);
+    if (!frame || frame->d_equation != equation) return {};
+    if (kind == "d_current") return {{frame->d_current, "A"}};
+    if (kind == "q_current") return {{frame->q_current, "A"}};
+    if (kind == "rotor_speed") return {{frame->speed, "rad/s"}};
+    return {{frame->pairs, "1"}};
+}
+
+/// What stands for the quantities of an equation's own terms, and for the differences and constants in it.
+std::vector<Filler> fillers_of_text(const std::string& kind, const model::Model& model, const model::Equation& e, const model::Signal& own) {
+    std::vector<Filler> out;
+    if (kind == "leading") {
+        for (const Stretch& s : place_of_leading(model, e)) out.push_back({e.ode.substr(s.begin, s.end - s.begin), ""});
+    } else if (kind == "factor") {
+        for (const std::string& name : factors_of_signal(model, e, own.name)) out.push_back({name, ""});
+    } else if (kind == "constant") {
+        for (const model::Constant& c : model.constants) if (may_be_wrong(c) && stands_in(e, c.name)) out.push_back({c.name, ""});
+    } else if (kind == "difference") {
+        for (const auto& [a, b] : differences(model, e)) {
+            const model::Signal& one = *model.signal(a);
+            if (one.unit == model.signal(b)->unit && (fits(unit_of(one), "rad") || fits(unit_of(one), "m"))) out.push_back({"(" + a + "-" + b + ")", one.unit});
+        }
+    }
+    for (Filler& f : out) if (f.unit.empty()) f.unit = unit_of_quantity(model, f.formula);
+    return out;
+}
+
 }  // namespace
+
+int order_of_derivative(const formula::Formula& der) { return der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1; }
 
 bool fits(const Unit& unit, const std::string& wanted) {
     const auto w = Unit::parse(wanted);
@@ -57,18 +102,24 @@ std::string time_name(const model::Model& model) {
 
 const std::vector<RoleKind>& role_kinds() {
     static const std::vector<RoleKind> kinds = {{"own", {}}, {"speed", {"rad/s", "m/s"}}, {"position", {"rad", "m"}}, {"angle", {"rad"}}, {"current", {"A"}},
-                                                {"any_speed", {"rad/s", "m/s"}}, {"input", {}}, {"time", {"s"}}};
+                                                {"any_speed", {"rad/s", "m/s"}}, {"input", {}}, {"time", {"s"}},
+                                                {"sensor", {}}, {"actuator", {}}, {"drive", {}}, {"leading", {}}, {"factor", {}}, {"difference", {"rad", "m"}}, {"constant", {}},
+                                                {"d_current", {"A"}}, {"q_current", {"A"}}, {"rotor_speed", {"rad/s"}}, {"pole_pairs", {"1"}}};
     return kinds;
 }
+
+bool is_of_a_frame(const std::string& kind) { return kind == "d_current" || kind == "q_current" || kind == "rotor_speed" || kind == "pole_pairs"; }
 
 std::vector<Filler> fillers(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured) {
     const Moved own = moved(model, model.equations[equation]);
     if (own.signal < 0) return {};
     const model::Signal& signal = model.signals[static_cast<std::size_t>(own.signal)];
+    if (is_of_a_frame(kind)) return fillers_of_frame(kind, model, equation, measured);
+    std::vector<Filler> out = fillers_of_text(kind, model, model.equations[equation], signal);
     const Unit unit = unit_of(signal);
     const bool is_speed = own.order == 1 && (fits(unit, "rad/s") || fits(unit, "m/s"));
     const bool is_position = own.order == 2 && (fits(unit, "rad") || fits(unit, "m"));
-    std::vector<Filler> out;
+    if (kind == "sensor" && measured[static_cast<std::size_t>(own.signal)] && signal.scored) out.push_back({signal.name, signal.unit});
     if (kind == "own") out.push_back({signal.name, signal.unit});
     if (kind == "current" && fits(unit, "A")) out.push_back({signal.name, signal.unit});
     if (kind == "speed") {
@@ -88,6 +139,8 @@ std::vector<Filler> fillers(const std::string& kind, const model::Model& model, 
         const bool moves = std::any_of(model.equations.begin(), model.equations.end(), [&](const model::Equation& e) { return moved(model, e).signal == static_cast<int>(s); });
         if (!measured[s]) continue;
         if (kind == "any_speed" && static_cast<int>(s) != own.signal && (fits(u, "rad/s") || fits(u, "m/s"))) out.push_back({model.signals[s].name, model.signals[s].unit});
+        if (kind == "actuator" && !moves && model.signals[s].column != time_column && stands_in(model.equations[equation], model.signals[s].name)) out.push_back({model.signals[s].name, model.signals[s].unit});
+        if (kind == "drive" && static_cast<int>(s) != own.signal && stands_in(model.equations[equation], model.signals[s].name)) out.push_back({model.signals[s].name, model.signals[s].unit});
         if (kind == "input" && !moves) out.push_back({model.signals[s].name, model.signals[s].unit.empty() ? "1" : model.signals[s].unit});
     }
     return out;

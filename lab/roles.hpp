@@ -16,6 +16,9 @@ struct Moved {
 };
 Moved moved(const model::Model& model, const model::Equation& equation);
 
+/// Order of the derivative that a der() is.
+int order_of_derivative(const formula::Formula& der);
+
 /// The signal x with an equation der(x) = speed; -1: there is none.
 int integral_of(const model::Model& model, int speed);
 
@@ -35,6 +38,9 @@ struct RoleKind {
 };
 /// All there are; docs/discover.md says what may stand for each.
 const std::vector<RoleKind>& role_kinds();
+
+/// True for a kind that stands for an axis or a quantity of a rotating frame (lab/rotating_frame.hpp).
+bool is_of_a_frame(const std::string& kind);
 
 /// A formula with its unit.
 struct Filler {

@@ -66,7 +66,8 @@ std::optional<RotatingFrame> rotating_frame(const model::Model& model, const std
             if (angle < 0 || !measured[static_cast<std::size_t>(angle)]) return std::nullopt;
             const double pairs = std::sqrt(-in_d.factor * in_q.factor);   // of L_q/L_d and L_d/L_q: the inductances cancel
             const auto name = [&](int s) { return model.signals[static_cast<std::size_t>(s)].name; };
-            return RotatingFrame{d, q, name(i_d), name(i_q), std::abs(pairs - 1) < 1e-9 ? name(angle) : number_text(model, pairs) + "*" + name(angle)};
+            const std::string count = number_text(model, pairs);
+            return RotatingFrame{d, q, name(i_d), name(i_q), std::abs(pairs - 1) < 1e-9 ? name(angle) : count + "*" + name(angle), name(in_d.speed), count};
         }
     }
     return std::nullopt;

@@ -16,6 +16,8 @@ struct RotatingFrame {
     std::string d_current;
     std::string q_current;
     std::string angle;       ///< formula of the electrical angle, e.g. "n_p*th"
+    std::string speed;       ///< of the rotor
+    std::string pairs;       ///< of poles: a constant, or a number
 };
 
 /// Nullopt where no two equations are coupled so, or where nothing integrates the speed to a measured angle.

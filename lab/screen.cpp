@@ -6,6 +6,7 @@
 #include <map>
 
 #include "lab/golden_section.hpp"
+#include "lab/largest_size.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
@@ -16,14 +17,23 @@ namespace {
 constexpr std::size_t bindings_of_one = 2;        ///< of one effect among those that the weak form takes
 constexpr double least_share = 0.1;               ///< of the free run's error, for what the weak form does not take
 constexpr double least_of_its_own = 1e-4;         ///< of an effect's slope that no parameter of the model makes
-constexpr double probe = 0.02;                    ///< of what drives an equation
+constexpr double probe = 0.02;                    ///< of what drives an equation, or of a value that is replaced
+constexpr double unsized_probe = 1e-3;            ///< where nothing tells its size, to begin with
 constexpr std::size_t lines_that_are_tried = 2;   ///< of each spectrum
 constexpr double price_of_a_scan = 1.5;   ///< a scan finds something in any noise
+constexpr std::size_t most_scanned_by_run = 16;
+constexpr double small_change = 0.02;             ///< of the outputs, that a probe of a parameter makes
+constexpr int most_probes = 4;
 
-std::vector<double> scan_values(const EffectScan& scan) {
+/// unit: what the range is counted in.
+std::vector<double> scan_values(const EffectScan& scan, double unit) {
     std::vector<double> out;
+    if (scan.factor > 0) {
+        for (double value = scan.from; value <= scan.to * (1 + 1e-9); value *= scan.factor) out.push_back(value * unit);
+        return out;
+    }
     const int steps = static_cast<int>((scan.to - scan.from) / scan.step + 1e-9);
-    for (int k = 0; k <= steps; ++k) out.push_back(scan.from + k * scan.step);
+    for (int k = 0; k <= steps; ++k) out.push_back((scan.from + k * scan.step) * unit);
     return out;
 }
 
@@ -44,8 +54,14 @@ public:
     std::vector<Candidate> of(const Effect& effect) {
         std::vector<Candidate> out;
         for (const Binding& binding : bindings(effect, base_.whole, measured_)) {
-            Candidate best{binding, 0, 0, 0, {}};
-            const std::vector<double> scans = effect.scans.empty() ? std::vector<double>{0.0} : effect.scans[0].spectrum ? lines(binding) : scan_values(effect.scans[0]);
+            if (enters_what_was_added(binding)) continue;
+            Candidate best{binding, 0, 0, 0, {}, {}};
+            const std::vector<double> scans = effect.scans.empty() ? std::vector<double>{0.0} : effect.scans[0].spectrum ? lines(binding) : scan_values(effect.scans[0], counted_in(effect.scans[0], binding));
+            if (effect.rewrite != Rewrite::add_term) {   // rows do not see a state, and what equations share they see one by one
+                if (!effect.scans.empty()) best.scans = scans;
+                out.push_back(std::move(best));
+                continue;
+            }
             for (const double scan : scans) {
                 Candidate c = weigh(binding, scan);
                 if (scans.size() > 1) c.strength /= price_of_a_scan;
@@ -53,14 +69,29 @@ public:
             }
             if (best.strength < 0) continue;
             if (best.strength > 0 && !effect.scans.empty() && effect.scans[0].spectrum) best = sharpened(std::move(best));
+            if (best.strength == 0 && scans.size() > 1 && scans.size() <= most_scanned_by_run) best.scans = scans;
             out.push_back(std::move(best));
         }
         return out;
     }
 
 private:
+    /// Equations that amendments have brought stand behind those of the nominal model.
+    bool enters_what_was_added(const Binding& binding) const {
+        std::size_t added = 0;
+        for (const Amendment& a : base_.amendments) added += a.states.size();
+        return std::any_of(binding.equations.begin(), binding.equations.end(), [&](std::size_t e) { return e + added >= base_.whole.equations.size(); });
+    }
+
+    double counted_in(const EffectScan& scan, const Binding& binding) const {
+        if (scan.of.empty()) return 1;
+        if (scan.of == "period") return base_.bench.drive.period;
+        if (scan.of == "duration") return static_cast<double>(bench_.parts().train.size()) * base_.bench.drive.period;
+        return largest_size(binding.roles[0].at(scan.of), base_.model, base_.bench);
+    }
+
     Candidate weigh(const Binding& binding, double scan) {
-        Candidate out{binding, scan, 0, 0, {}};
+        Candidate out{binding, scan, 0, 0, {}, {}};
         const Amendment a = amendment(binding, base_.model, scan);
         const auto model = bench_.runnable(amended(base_.text, base_.whole, a));
         if (!model) return out;
@@ -185,8 +216,22 @@ public:
         left_ = outside(Eigen::Map<const Eigen::VectorXd>(residual_.data(), static_cast<Eigen::Index>(residual_.size())));
     }
 
-    /// Sets the candidate's share and, where the weak form has none, its start.
+    /// Sets the candidate's share and, where the weak form has none, its start and the value of its scan.
     void weigh(Candidate& c) const {
+        if (c.scans.empty()) return weigh_at(c);
+        Candidate best = c;
+        for (const double scan : c.scans) {
+            Candidate here = c;
+            here.scan = scan;
+            weigh_at(here);
+            if (here.share > best.share) best = std::move(here);
+            if (bench_.used_up()) break;
+        }
+        c = std::move(best);
+    }
+
+private:
+    void weigh_at(Candidate& c) const {
         const Amendment a = amendment(c.binding, base_.model, c.scan);
         Diagnostics quiet;
         auto amendments = base_.amendments;
@@ -195,51 +240,114 @@ public:
         if (!v || !(left_.squaredNorm() > 0)) return;
         if (v->bench.options.stride != base_.bench.options.stride) return;   // it brings time to a run that nothing drove: other samples are kept
         FitStart at = at_;
-        at.parameters.clear();
-        for (const model::Parameter& p : v->model.parameters) {
-            const int old = base_.model.parameter_index(p.name);
-            at.parameters.push_back(old >= 0 ? base_.fit.parameters[static_cast<std::size_t>(old)] : 0.0);
-        }
-        std::vector<std::size_t> added;
-        for (const NewName& n : a.names) if (!n.constant) added.push_back(static_cast<std::size_t>(v->model.parameter_index(n.name)));
-        const std::vector<double> sizes = probes(*v, at.parameters, added, c.binding.equations);
+        at.parameters = neutral_parameters(*v, a);
+        at.initial = carried_initial(*v, base_);
+        const std::vector<const NewName*> added = moved_by_slope(a);
         Eigen::MatrixXd slopes(left_.size(), static_cast<Eigen::Index>(added.size()));
-        for (std::size_t k = 0; k < added.size(); ++k) {
-            at.parameters[added[k]] = sizes[k];
-            const std::vector<double> there = output_residual(v->model, v->bench, at);
-            at.parameters[added[k]] = 0;
-            for (std::size_t i = 0; i < there.size(); ++i) slopes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = there[i] - residual_[i];
-        }
+        std::vector<double> sizes;
+        for (std::size_t k = 0; k < added.size(); ++k) sizes.push_back(probe_of(*v, at, *added[k], c.binding, slopes.col(static_cast<Eigen::Index>(k))));
+        if (added.empty()) return weigh_scan_alone(c, *v, at);
         const double whole = slopes.squaredNorm();
         slopes = outside(slopes);
         if (!(slopes.squaredNorm() > least_of_its_own * whole)) return;   // what the parameters do already
         const Eigen::VectorXd move = slopes.colPivHouseholderQr().solve(-left_);
         for (std::size_t k = 0; k < added.size(); ++k) {
-            if (a.names[k].min && move[static_cast<Eigen::Index>(k)] * sizes[k] < *a.names[k].min) return;
+            double& value = at.parameters[static_cast<std::size_t>(v->model.parameter_index(added[k]->name))];
+            value += move[static_cast<Eigen::Index>(k)] * sizes[k];
+            if (added[k]->min && value < *added[k]->min) return;
         }
         c.share = 1 - (left_ + slopes * move).squaredNorm() / left_.squaredNorm();
         if (c.strength > 0) return;
         c.start = at.parameters;
-        for (std::size_t k = 0; k < added.size(); ++k) c.start[added[k]] = move[static_cast<Eigen::Index>(k)] * sizes[k];
     }
 
-private:
+    /// An effect of a scanned number alone: what it takes where it is, or would take as far along as suits it, since the model's parameters give
+    /// way by more than their slope tells.
+    void weigh_scan_alone(Candidate& c, const Variant& v, FitStart at) const {
+        const Eigen::VectorXd whole = change_at(v, at);
+        const Eigen::VectorXd change = outside(whole);
+        if (!(change.squaredNorm() > least_of_its_own * whole.squaredNorm())) return;
+        const double here = 1 - (left_ + change).squaredNorm() / left_.squaredNorm();
+        const double further = std::max(-left_.dot(change) / change.squaredNorm(), 0.0);
+        const double there = 1 - (left_ + further * change).squaredNorm() / left_.squaredNorm();
+        c.share = std::max(here, there);
+        const EffectScan& scan = c.binding.effect->scans[0];
+        const int p = v.model.parameter_index(scanned_name(v.amendments.back()));
+        if (there > here && scan.fitted && p >= 0 && !c.scans.empty()) {
+            c.scan = std::clamp(further * c.scan, c.scans.front(), c.scans.back());
+            at.parameters[static_cast<std::size_t>(p)] = c.scan;
+        }
+        c.start = at.parameters;
+    }
+
+    static std::string scanned_name(const Amendment& a) {
+        const auto found = std::find_if(a.names.begin(), a.names.end(), [](const NewName& n) { return n.scanned; });
+        return found == a.names.end() ? "" : found->name;
+    }
+
     Eigen::MatrixXd outside(const Eigen::MatrixXd& x) const { return x - basis_ * (basis_.transpose() * x); }
 
-    /// Values of the added parameters at which their terms are a small part of what drives the equation.
-    std::vector<double> probes(const Variant& v, const std::vector<double>& parameters, const std::vector<std::size_t>& added, const std::vector<std::size_t>& equations) const {
-        std::vector<double> out(added.size(), 1e-3);
-        const std::size_t e = index_of(v.model, base_.whole.equations[equations[0]].name);
-        const auto form = weak_form(v.model, v.bench, e, bench_.parts().fitted, weak_intervals(bench_.parts().fitted).front());
-        if (!form) return out;
-        const double driving = driving_size(*form, parameters);
-        for (std::size_t k = 0; k < added.size(); ++k) {
-            std::vector<double> one = parameters;
-            one[added[k]] = 1.0;
-            const double term = (weak_residual(*form, one) - weak_residual(*form, parameters)).norm() / std::sqrt(static_cast<double>(form->columns.rows()));
-            if (term > 0 && driving > 0) out[k] = probe * driving / term;
+    /// The base's fit, with what an amendment brings at values where it does nothing, and scanned numbers where they are.
+    std::vector<double> neutral_parameters(const Variant& v, const Amendment& a) const {
+        std::vector<double> out;
+        for (const model::Parameter& p : v.model.parameters) {
+            const int old = base_.model.parameter_index(p.name);
+            const auto added = std::find_if(a.names.begin(), a.names.end(), [&](const NewName& n) { return n.name == p.name; });
+            if (old >= 0) out.push_back(base_.fit.parameters[static_cast<std::size_t>(old)]);
+            else if (added == a.names.end()) out.push_back(0);
+            else out.push_back(added->scanned ? added->value : neutral_value(*added));
         }
         return out;
+    }
+
+    double neutral_value(const NewName& n) const {
+        if (n.neutral.empty()) return 0;
+        const int p = base_.model.parameter_index(n.neutral);
+        if (p >= 0) return base_.fit.parameters[static_cast<std::size_t>(p)];
+        const model::Constant* c = base_.model.constant(n.neutral);
+        return c != nullptr ? exact::nearest(c->value, plan::Scalar::float64) : std::stod(n.neutral);
+    }
+
+    static std::vector<const NewName*> moved_by_slope(const Amendment& a) {
+        std::vector<const NewName*> out;
+        for (const NewName& n : a.names) if (!n.constant && !n.scanned) out.push_back(&n);
+        return out;
+    }
+
+    /// What the free run's residual changes by.
+    Eigen::VectorXd change_at(const Variant& v, const FitStart& at) const {
+        const std::vector<double> there = output_residual(v.model, v.bench, at);
+        return Eigen::Map<const Eigen::VectorXd>(there.data(), static_cast<Eigen::Index>(there.size())) - Eigen::Map<const Eigen::VectorXd>(residual_.data(), static_cast<Eigen::Index>(residual_.size()));
+    }
+
+    /// A small move of an added parameter, and the change that it makes: a small part of what drives the equation, where rows tell, of what is
+    /// replaced, else of the outputs.
+    double probe_of(const Variant& v, FitStart at, const NewName& n, const Binding& binding, Eigen::Ref<Eigen::VectorXd> change) const {
+        double& value = at.parameters[static_cast<std::size_t>(v.model.parameter_index(n.name))];
+        const double neutral = value;
+        double size = neutral != 0 ? probe * std::abs(neutral) : binding.effect->rewrite == Rewrite::add_term ? row_probe(v, at.parameters, n, binding) : 0;
+        const bool sized = size > 0;
+        if (!sized) size = unsized_probe;
+        for (int k = 0; k < most_probes; ++k) {
+            value = neutral + size;
+            change = change_at(v, at);
+            const double far = change.norm() / small_change;
+            if (sized || (far > 0.1 && far < 10)) break;
+            if (k + 1 < most_probes) size *= far > 0 ? std::clamp(1 / far, 1e-6, 1e6) : 1e6;
+        }
+        return size;
+    }
+
+    /// The value of a parameter at which its term is a small part of what drives the equation; 0: rows do not tell.
+    double row_probe(const Variant& v, const std::vector<double>& parameters, const NewName& n, const Binding& binding) const {
+        const std::size_t e = index_of(v.model, base_.whole.equations[binding.equations[0]].name);
+        const auto form = weak_form(v.model, v.bench, e, bench_.parts().fitted, weak_intervals(bench_.parts().fitted).front());
+        if (!form) return 0;
+        std::vector<double> one = parameters;
+        one[static_cast<std::size_t>(v.model.parameter_index(n.name))] = 1.0;
+        const double term = (weak_residual(*form, one) - weak_residual(*form, parameters)).norm() / std::sqrt(static_cast<double>(form->columns.rows()));
+        const double driving = driving_size(*form, parameters);
+        return term > 0 && driving > 0 ? probe * driving / term : 0;
     }
 
     Workbench& bench_;
@@ -258,7 +366,9 @@ std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::
     for (const Effect& effect : effects) {
         for (Candidate& c : screen.of(effect)) {
             // Where it stands already it does not come again, a wave of another order does.
-            const bool stands = effect.scans.empty() && std::any_of(base.amendments.begin(), base.amendments.end(), [&](const Amendment& a) { return a.effect == effect.name && a.equations == c.binding.equations; });
+            const bool again = !effect.scans.empty() && effect.rewrite == Rewrite::add_term;
+            const std::string own = identity(amendment(c.binding, base.model, c.scan));
+            const bool stands = !again && std::any_of(base.amendments.begin(), base.amendments.end(), [&](const Amendment& a) { return identity(a) == own; });
             if (!stands) all.push_back(std::move(c));
         }
     }
@@ -274,7 +384,7 @@ std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::
     if (bench.yardstick() != Yardstick::free_run) return out;
     const Slope slope(bench, base);
     for (Candidate& c : out) if (!bench.used_up()) slope.weigh(c);
-    for (Candidate& c : rest) if (c.binding.effect->scans.empty() && !bench.used_up()) slope.weigh(c);   // a scan's value is the weak form's to find
+    for (Candidate& c : rest) if ((c.binding.effect->scans.empty() || !c.scans.empty()) && !bench.used_up()) slope.weigh(c);   // else the scan's value is the weak form's to find
     std::stable_sort(rest.begin(), rest.end(), [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
     for (std::size_t k = 0; k < rest.size() && k < by_run && rest[k].share > least_share; ++k) out.push_back(std::move(rest[k]));
     return out;

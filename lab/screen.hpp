@@ -14,6 +14,7 @@ struct Candidate {
     double scan;
     double strength;              ///< F statistic of the reduction of the weak residual; 0 where the weak form cannot see it
     double share;                 ///< of the free run's squared error on the fitted rows that it would take, to first order
+    std::vector<double> scans;    ///< values that only a free run can weigh; empty: none
     std::vector<double> start;    ///< parameters of the amended model, by whichever of the two speaks louder
 };
 

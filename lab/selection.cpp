@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_effects = 3;
 constexpr std::size_t by_rows = 4;              ///< candidates of the weak form that are fitted in free run, beside each base
-constexpr std::size_t by_run = 2;               ///< more, of the free run's slope
+constexpr std::size_t by_run = 4;               ///< more, of the free run's slope
 constexpr double least_strength = 4;            ///< F statistic below which a candidate is not worth a fit, beyond the first
 constexpr double least_share = 0.02;             ///< of the free run's error, the same
 constexpr double a_base_within = 2.0;           ///< validation error of a further base, over that of the best
@@ -33,11 +33,9 @@ struct Base {
     std::vector<std::size_t> evidence;
 };
 
-using Identity = std::set<std::pair<std::string, std::vector<std::size_t>>>;
-
-Identity identity(const Variant& v) {
-    Identity out;
-    for (const Amendment& a : v.amendments) out.emplace(a.effect, a.equations);
+std::set<std::string> identities(const Variant& v) {
+    std::set<std::string> out;
+    for (const Amendment& a : v.amendments) out.insert(identity(a));
     return out;
 }
 
@@ -79,23 +77,24 @@ std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, con
     Diagnostics quiet;
     auto v = bench.prepare(amended(base.text, base.whole, a), std::move(amendments), quiet);
     if (!v) return std::nullopt;
-    bench.fit_and_score(*v, carried_over(*v, base), base.fit.initial);
+    bench.fit_and_score(*v, carried_over(*v, base), carried_initial(*v, base));
     return v;
 }
 
 Evidence evidence_of(const Variant& v, const Variant& base, double strength, int step) {
     const Amendment& a = v.amendments.back();
-    Evidence out{a.effect, "", "", strength, v.score.nrmse, log_gain(v.score, base.score), false, false, step};
-    for (std::size_t k = 0; k < a.equations.size(); ++k) {
-        out.equation += (k > 0 ? ", " : "") + v.whole.equations[a.equations[k]].name;
-        out.term += (k > 0 ? ", " : "") + a.terms[k];
-    }
-    return out;
+    return {a.effect, place(a, v.whole), change(a), strength, v.score.nrmse, log_gain(v.score, base.score), false, false, step};
 }
 
 bool indistinguishable(const Variant& best, const Variant& other) {
     const double ratio = other.score.nrmse / best.score.nrmse;
     return ratio < alike || (ratio < clearly_worse && significance(best.score, other.score) < surely_worse);
+}
+
+/// True when the files of the effects say that recordings may not tell them apart.
+bool are_rivals(const Effect& a, const Effect& b) {
+    const auto names = [](const Effect& one, const Effect& other) { return std::any_of(one.rivals.begin(), one.rivals.end(), [&](const Rival& r) { return r.name == other.name; }); };
+    return names(a, b) || names(b, a);
 }
 
 /// With every scanned frequency placed anew beside the other effects: it was found before they were there.
@@ -124,10 +123,19 @@ Variant sharpened(Workbench& bench, Variant best, const Variant& nominal, const 
         Diagnostics quiet;
         auto v = bench.prepare(amended_in_turn(nominal.text, bench.path(), moved), moved, quiet);
         if (!v) continue;
-        bench.fit_and_score(*v, carried_over(*v, best), best.fit.initial);
+        bench.fit_and_score(*v, carried_over(*v, best), carried_initial(*v, best));
         if (v->score.nrmse < best.score.nrmse) best = std::move(*v);
     }
     return best;
+}
+
+/// With thin layers, where those explain more: how sharply the machine switches is not in any model.
+Variant sharply_switched(const Workbench& bench, Variant best) {
+    if (best.bench.system.layers.empty() || bench.yardstick() != Yardstick::free_run || best.score.gap() <= at_the_floor) return best;
+    Variant v = best;
+    v.bench.options.layer_width = thin_layer;
+    bench.fit_and_score(v, best.fit.parameters, best.fit.initial);
+    return v.score.nrmse < best.score.nrmse ? v : best;
 }
 
 /// Without every effect whose absence is not noticed.
@@ -140,7 +148,7 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
             Diagnostics quiet;
             auto v = bench.prepare(amended_in_turn(nominal.text, bench.path(), kept), kept, quiet);
             if (!v) continue;
-            bench.fit_and_score(*v, carried_over(*v, best), best.fit.initial);
+            bench.fit_and_score(*v, carried_over(*v, best), carried_initial(*v, best));
             if (worth_it(best.score, v->score)) continue;
             best = std::move(*v);
             changed = true;
@@ -161,7 +169,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
     Selection out{nominal, {}, {}, false};
     std::vector<Base> beside = {{nominal, {}}};
     bool ahead = false;   // the last step's effects are not worth it alone, a further one may show that they are
-    std::set<Identity> tried;
+    std::set<std::set<std::string>> tried;
     for (int step = 1; step <= most_effects; ++step) {
         std::vector<Variant> fitted;
         std::vector<std::vector<std::size_t>> row;   // of the evidence, by fitted
@@ -172,8 +180,8 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
             std::size_t seen = 0;
             for (const Candidate& c : screen(bench, base, effects, by_rows, by_run)) {
                 if (++seen > 1 && c.strength < least_strength && !(c.share > least_share)) continue;
-                Identity id = identity(base);
-                id.emplace(c.binding.effect->name, c.binding.equations);
+                std::set<std::string> id = identities(base);
+                id.insert(identity(amendment(c.binding, base.model, c.scan)));
                 if (c.binding.effect->scans.empty() && !tried.insert(id).second) continue;
                 if (bench.used_up()) break;
                 if (progress) progress("fit " + c.binding.effect->name, 0.1 + 0.8 * share + 0.2 / most_effects);
@@ -191,12 +199,14 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         std::vector<double> merit;
         for (const Variant& v : fitted) merit.push_back(criterion(v, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
-        // A wave of time fits what hangs on an angle at constant speed: what hangs on the machine goes first where both explain alike.
-        const auto outside = [&](const Variant& v) {
-            return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.outside && e.name == v.amendments.back().effect; });
+        // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does: what hangs on the machine, and adds
+        // to the model instead of bending it, goes first where both explain alike.
+        const auto effect_of = [&](const Variant& v) -> const Effect& {
+            return *std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == v.amendments.back().effect; });
         };
-        for (std::size_t k = 1; k < order.size() && outside(fitted[order[0]]); ++k) {
-            if (!outside(fitted[order[k]]) && indistinguishable(fitted[order[0]], fitted[order[k]])) std::swap(order[0], order[k]);
+        const auto held_back = [&](const Variant& v) { return effect_of(v).outside || effect_of(v).flexible(); };
+        for (std::size_t k = 1; k < order.size() && held_back(fitted[order[0]]); ++k) {
+            if (!held_back(fitted[order[k]]) && indistinguishable(fitted[order[0]], fitted[order[k]])) std::swap(order[0], order[k]);
         }
         const Variant& top = fitted[order[0]];
         std::vector<Base> next;
@@ -214,12 +224,13 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         for (const std::size_t r : row[order[0]]) out.evidence[r].chosen = true;
         out.rivals.clear();
         for (const std::size_t k : order) {
-            if (k != order[0] && outside(fitted[k]) <= outside(top) && indistinguishable(top, fitted[k])) {
+            const bool plausible = held_back(fitted[k]) <= held_back(top) || are_rivals(effect_of(top), effect_of(fitted[k]));
+            if (k != order[0] && plausible && indistinguishable(top, fitted[k])) {
                 out.rivals.push_back(fitted[k]);
                 out.evidence[row[k].back()].rival = true;
             }
         }
-        out.best = sharpened(bench, top, nominal, effects);
+        out.best = sharply_switched(bench, sharpened(bench, top, nominal, effects));
         beside = std::move(next);
         beside[0].variant = out.best;
         if (out.best.score.gap() <= at_the_floor || bench.used_up()) break;

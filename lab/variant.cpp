@@ -30,6 +30,11 @@ void names_in(const formula::Formula& f, std::set<std::string>& out) {
     for (const formula::Formula& a : f->arguments) names_in(a, out);
 }
 
+/// The rows of an equation that is not linear in a parameter take its initial value: that becomes what was fitted.
+void start_at_fit(Variant& v) {
+    for (std::size_t p = 0; p < v.model.parameters.size(); ++p) if (std::isfinite(v.fit.parameters[p])) v.model.parameters[p].initial = exact::from_double(v.fit.parameters[p]);
+}
+
 int row_intervals(const Rows& rows) {
     int out = intervals_of_a_row;
     while (out > 8 && 2 * rows.size() < least_windows * static_cast<std::size_t>(out)) out /= 2;
@@ -151,6 +156,7 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
         }
     }
     v.fit = fit(v.model, v.bench, from);
+    start_at_fit(v);
     v.score = free_run_score(v);
 }
 
@@ -168,6 +174,7 @@ void Workbench::refine(Variant& v) {
         return;
     }
     v.fit = fit(v.model, v.bench, from);
+    start_at_fit(v);
 }
 
 Score Workbench::free_run_score(const Variant& v) const {
@@ -244,6 +251,19 @@ bool Workbench::drifts(const Variant& fitted) const {
         if (!(left < lasting)) return true;   // NaN: it diverged
     }
     return false;
+}
+
+std::vector<double> carried_initial(const Variant& v, const Variant& from) {
+    std::vector<double> out = v.bench.initial;
+    const std::vector<StateEntry>& states = from.bench.system.states;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const StateEntry& own = v.bench.system.states[i];
+        for (std::size_t k = 0; k < states.size(); ++k) {
+            const bool same = states[k].order == own.order && from.model.signals[static_cast<std::size_t>(states[k].signal)].name == v.model.signals[static_cast<std::size_t>(own.signal)].name;
+            if (same) out[i] = from.fit.initial[k];
+        }
+    }
+    return out;
 }
 
 double log_gain(const Score& a, const Score& b) {

@@ -109,6 +109,9 @@ private:
     Effort effort_;
 };
 
+/// Initial values of v's states as another variant's fit has them; its own for those that the other lacks.
+std::vector<double> carried_initial(const Variant& v, const Variant& from);
+
 /// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):
 /// the sum over outputs of rows times log(b^2/a^2).
 double log_gain(const Score& a, const Score& b);

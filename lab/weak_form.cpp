@@ -7,9 +7,12 @@
 
 #include "algest/dot.hpp"
 #include "generator/annihilator.hpp"
+#include "generator/delay.hpp"
 #include "generator/kernel.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/held_parameters.hpp"
 #include "lab/noise.hpp"
+#include "lab/past.hpp"
 #include "lab/polynomial_value.hpp"
 #include "lab/roles.hpp"
 #include "lab/slope.hpp"
@@ -18,11 +21,23 @@ namespace algest::lab {
 
 namespace {
 
+/// By known times: an equation with a delay that a parameter says has no such form.
+std::vector<model::Delay> delays_of(const model::Model& model, const equation::OperatorForm& form) {
+    std::vector<model::Delay> out;
+    for (const equation::Atom& atom : form.atoms) model::add_delays(model, atom.formula, out);
+    return out;
+}
+
 /// Every product of the form, sample by sample; delayed forms are one sample late and start at the second row.
 std::vector<std::vector<double>> products(const model::Model& model, const Bench& bench, const equation::OperatorForm& form, Rows rows) {
-    std::vector<int> inputs(model.signals.size());
-    for (std::size_t s = 0; s < inputs.size(); ++s) inputs[s] = static_cast<int>(s);
-    TapeBuilder builder(model, plan::Scalar::float64, {inputs});
+    TapeInputs inputs;
+    for (std::size_t s = 0; s < model.signals.size(); ++s) inputs.signal.push_back(static_cast<int>(s));
+    std::vector<std::vector<double>> samples = bench.measured;
+    for (const model::Delay& d : delays_of(model, form)) {
+        inputs.delay[d.text] = static_cast<int>(samples.size());
+        samples.push_back(delayed_samples(bench.measured[static_cast<std::size_t>(d.signal)], samples_ago(exact::nearest(*d.by, plan::Scalar::float64), bench.drive.period)));
+    }
+    TapeBuilder builder(model, plan::Scalar::float64, inputs);
     for (const equation::Term& term : form.terms) {
         equation::OperatorForm plain = form;
         if (plain.order(term.product) > 0) {
@@ -32,7 +47,7 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
         builder.result(builder.product(plain, term.product, form.delayed));
     }
     const plan::Tape tape = builder.finish();
-    const std::size_t signals = model.signals.size();
+    const std::size_t signals = samples.size();
     std::vector<double> here(signals), previous(signals), derivative(signals), values(tape.operations.size()), results(tape.results.size());
     std::vector<std::vector<double>> slope(signals);
     if (form.delayed) {
@@ -45,8 +60,8 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
     std::vector<std::vector<double>> out(form.terms.size());
     for (std::size_t row = rows.begin; row < rows.end; ++row) {
         for (std::size_t s = 0; s < signals; ++s) {
-            if (bench.measured[s].empty()) continue;
-            here[s] = bench.measured[s][row];
+            if (samples[s].empty()) continue;
+            here[s] = samples[s][row];
             if (row > 0 && !slope[s].empty()) derivative[s] = slope[s][row - 1];   // the form is one sample late
         }
         if (!form.delayed || row > rows.begin) {
@@ -111,8 +126,7 @@ bool measured(const Bench& bench, const equation::OperatorForm& form) {
 
 /// The form of an equation that every signal of it is measured for, on rows enough for two windows.
 std::optional<equation::OperatorForm> measured_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
-    Diagnostics quiet;
-    auto form = equation::operator_form(model, model.equations[equation], quiet);
+    auto form = form_with_held_parameters(model, equation);
     if (!form || form->terms.empty() || rows.size() < 2 * static_cast<std::size_t>(intervals) + 4) return std::nullopt;
     if (!measured(bench, *form)) return std::nullopt;
     return form;
@@ -127,8 +141,7 @@ std::vector<int> weak_intervals(const Rows& rows) {
 }
 
 bool has_weak_form(const model::Model& model, const Bench& bench, std::size_t equation) {
-    Diagnostics quiet;
-    const auto form = equation::operator_form(model, model.equations[equation], quiet);
+    const auto form = form_with_held_parameters(model, equation);
     return form && measured(bench, *form);
 }
 

@@ -1,56 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Free runs against closed solutions.
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
 
-#include "lab/simulate.hpp"
-#include "tests/lab/temporary_file.hpp"
+#include "tests/lab/scene.hpp"
 
 namespace {
 
-using algest::Diagnostics;
 using algest::lab::FreeRun;
-
-/// A model and a recording with the given inputs, run from the model's initial values.
-struct Scene {
-    explicit Scene(const std::string& model_text) {
-        auto read = algest::model::read(folder.write("model.toml", model_text), false, diagnostics);
-        for (const auto& d : diagnostics.sorted()) UNSCOPED_INFO(d.text());
-        REQUIRE(read);
-        model = *read;
-    }
-
-    /// `inputs`: name and value at an instant.
-    FreeRun run(std::size_t samples, const std::vector<std::pair<std::string, std::function<double(double)>>>& inputs) {
-        const double period = algest::exact::nearest(*model.period, algest::plan::Scalar::float64);
-        std::string csv = "t [s]";
-        for (const auto& [name, value] : inputs) csv += "," + name + " [" + model.signal(name)->unit + "]";
-        csv += "\n";
-        for (std::size_t k = 0; k < samples; ++k) {
-            const double t = static_cast<double>(k) * period;
-            csv += fmt::format("{}", t);
-            for (const auto& [name, value] : inputs) csv += fmt::format(",{}", value(t));
-            csv += "\n";
-        }
-        const auto recording = algest::lab::read_recording(folder.write("recording.csv", csv), diagnostics);
-        REQUIRE(recording);
-        const auto bench = algest::lab::bench(model, *recording, diagnostics);
-        for (const auto& d : diagnostics.sorted()) UNSCOPED_INFO(d.text());
-        REQUIRE(bench);
-        const auto parameters = algest::lab::parameter_values(model, {}, diagnostics);
-        REQUIRE(parameters);
-        return algest::lab::free_run(bench->system, *parameters, bench->initial, bench->drive, bench->options);
-    }
-
-    const std::vector<double>& of(const FreeRun& run, const std::string& name) const { return run.signals[static_cast<std::size_t>(model.signal_index(name))]; }
-
-    algest::test::TemporaryFolder folder;
-    Diagnostics diagnostics;
-    algest::model::Model model;
-};
+using algest::test::Scene;
 
 }  // namespace
 

@@ -554,13 +554,6 @@ PLACES = [
 ]
 
 MATHEMATICS = [
-    ("parameter in sin", ode("der(x) = sin(▸a*x) + b*u"), "'a' stands inside sin()"),
-    ("parameter in a power of e", ode("der(x) = a*x + exp(2*(1 + ▸b))*u"), "'b' stands inside exp()"),
-    ("parameter in an exponent", ode("der(x) = x^▸a + b*u"), "'a' stands in an exponent"),
-    ("parameter under a root", ode("der(x) = sqrt(u*▸a) + b*u"), "'a' stands inside sqrt()"),
-    ("parameter under a broken power", ode("der(x) = (▸a*x)^0.5 + b*u"), "power that is not a whole number"),
-    ("parameter beside a signal in a denominator", ode("der(x) = u/(▸a + x) + b*u"), "beside a signal in a denominator"),
-    ("parameter in a comparison", ode("der(x) = max(x, ▸a) + b*u"), "'a' stands inside max()"),
     ("second derivative inside a nonlinearity", ode("der(x) = a*x + b*sgn(▸der(y, 2))"), "order above 1"),
     ("second derivative times a signal", ode("der(x) = a*x + b*u*▸der(y, 2)"), "order above 1"),
     ("products that outnumber the parameters", changed(PLAIN, '"der(x) = a*x + b*u"', '▸"der(x) = a*x + b*u + a*b*y"'), "because of the term"),
@@ -586,6 +579,26 @@ MATHEMATICS = [
     ("degrees Celsius and kelvins", HEAT.replace("T - ", "T - ▸"), "differ in their zero"),
     ("a long sum", coil_ode("L*der(i) = " + "gain*v + " * 300 + "▸i - R*i"), "differ in dimension"),
     ("unit of another parameter", coil('"H"', '"F"', "gain*v", "▸gain*v"), "differ in dimension"),
+]
+
+DELAYS = [
+    ("delay without a time", ode("der(x) = a*x + b*▸delay(u)"), "takes a signal and a time"),
+    ("delay of three", ode("der(x) = a*x + b*▸delay(u, 1, 2)"), "takes a signal and a time"),
+    ("delay of a product", ode("der(x) = a*x + b*delay(▸u*y, 1)"), "not a signal"),
+    ("delay of a constant", ode("der(x) = a*x + b*u + delay(▸c, 1)"), "not a signal"),
+    ("delay of a derivative", ode("der(x) = a*x + b*delay(▸der(y), 1)"), "not a signal"),
+    ("delay of what is not declared", ode("der(x) = a*x + b*delay(▸z, 1)"), "unknown name 'z'"),
+    ("derivative of a delay", ode("der(x) = a*x + b*der(▸delay(u, 1))"), "not a signal"),
+    ("the future", ode("der(x) = a*x + b*delay(u, ▸c - 3)"), "less than nothing"),
+    ("delay by a signal", ode("der(x) = a*x + b*delay(u, ▸y)"), "neither known nor a parameter"),
+    ("delay by twice a parameter", ode("der(x) = a*x + b*delay(u, ▸2*a)"), "neither known nor a parameter"),
+    ("delay by nothing by nothing", ode("der(x) = a*x + b*delay(u, 1/▸0)"), "division by zero"),
+    ("delay that may become negative", ode("der(x) = a*x + b*delay(u, ▸b)"), "give the parameter min = 0"),
+    ("delay with a negative bound", changed(PLAIN, "a*x + b*u", "a*x + delay(u, ▸b)", "b = {}", "b = { min = -1 }"), "give the parameter min = 0"),
+    ("delay by a pure number", coil_ode("L*der(i) = delay(v, ▸gain) - R*i"), "the time of a delay has the unit [1]"),
+    ("delay in milliseconds", coil("gain*v", "delay(v, ▸gain)", 'value = 2, unit = "1"', 'value = 2, unit = "ms"'), "declare it in s"),
+    ("sum of a delayed voltage and a current", coil_ode("L*der(i) = delay(v, 2) - ▸i - R*i"), "differ in dimension"),
+    ("signal named delay", coil("v = {", "▸delay = {", "gain*v", "▸gain"), "'delay' is a function"),
 ]
 
 TRANSFERS = [
@@ -634,10 +647,17 @@ ESTIMATOR_ALONE = [
     ("no window", coil("[sampling]", "▸[sampling]", "window = 0.02\n", ""), "no window"),
     ("nothing to estimate", "▸" + coil("[parameters]", ""  # the two are constants now
                                        ).replace('R = { unit = "ohm" }', 'R = { value = 1, unit = "ohm" }').replace('L = { unit = "H" }', 'L = { value = 1, unit = "H" }'), "nothing to estimate"),
+    ("parameter in sin", ode("der(x) = sin(▸a*x) + b*u"), "'a' stands inside sin()"),
+    ("parameter in a power of e", ode("der(x) = a*x + exp(2*(1 + ▸b))*u"), "'b' stands inside exp()"),
+    ("parameter in an exponent", ode("der(x) = x^▸a + b*u"), "'a' stands in an exponent"),
+    ("parameter under a root", ode("der(x) = sqrt(u*▸a) + b*u"), "'a' stands inside sqrt()"),
+    ("parameter under a broken power", ode("der(x) = (▸a*x)^0.5 + b*u"), "power that is not a whole number"),
+    ("parameter beside a signal in a denominator", ode("der(x) = u/(▸a + x) + b*u"), "beside a signal in a denominator"),
+    ("parameter in a comparison", ode("der(x) = max(x, ▸a) + b*u"), "'a' stands inside max()"),
 ]
 
 CASES = {"TOML": TOML, "keys": KEYS, "values": VALUES, "names": NAMES, "formulas": FORMULAS, "places": PLACES,
-         "mathematics": MATHEMATICS, "transfer": TRANSFERS}
+         "mathematics": MATHEMATICS, "delays": DELAYS, "transfer": TRANSFERS}
 
 COMMANDS = [("check", "m.toml"), ("derive", "m.toml"), ("generate", "m.toml", "-o", "out")]
 
