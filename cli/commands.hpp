@@ -66,15 +66,15 @@ int simulate(const SimulateOptions& options);
 
 struct DiscoverOptions {
     std::string model;
-    std::string recording;
+    std::vector<std::string> recordings;   ///< of one machine
     std::string directory;       ///< for the amended model, its patch and the free runs before and after
-    std::string train;           ///< "A:B" in s; empty: the first 70 percent
+    std::string train;           ///< "A:B" in s, of each recording; empty: the first 70 percent
     std::string test;            ///< "C:D" in s; empty: the rest
     bool apply = false;          ///< write the amended text over the model file
     lab::CsvStyle csv;
     bool json = false;
 };
-/// Finds where model and recording disagree and names the missing effect.
+/// Finds where model and recordings disagree and names the missing effect.
 int discover(const DiscoverOptions& options);
 
 }  // namespace algest::cli

@@ -3,7 +3,9 @@
 #include "lab/discover.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -46,15 +48,69 @@ std::vector<std::string> effect_folders(const std::string& model) {
     return {(program / "../share/algest/models/effects").string(), (program / "../models/effects").string(), beside.string()};
 }
 
-ordered_json effect_json(const lab::NamedEffect& effect) {
-    ordered_json parameters = ordered_json::array();
-    for (const lab::NamedParameter& p : effect.parameters) {
-        parameters.push_back({{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"sd", std::isfinite(p.sd) ? ordered_json(p.sd) : ordered_json(nullptr)}});
-    }
-    return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", std::move(parameters)}};
+/// Null where the data do not see it, for a number that is not finite is no JSON.
+ordered_json number_or_null(double x) { return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr); }
+
+ordered_json parameters_json(const std::vector<lab::NamedParameter>& parameters) {
+    ordered_json out = ordered_json::array();
+    for (const lab::NamedParameter& p : parameters) out.push_back({{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"sd", number_or_null(p.sd)}});
+    return out;
 }
 
-ordered_json discovery_json(const lab::Discovery& d, const std::string& model_file, const std::string& patch_file, const std::string& report_file) {
+struct OutputFiles {
+    std::vector<std::string> before;   ///< by recording: before.csv, before_2.csv, ...
+    std::vector<std::string> after;
+    std::string model;
+    std::string patch;
+    std::string report;
+
+    std::vector<std::string> all() const {
+        std::vector<std::string> out = {model, patch, report};
+        out.insert(out.end(), before.begin(), before.end());
+        out.insert(out.end(), after.begin(), after.end());
+        return out;
+    }
+};
+
+OutputFiles output_files(const DiscoverOptions& options) {
+    const std::filesystem::path directory = options.directory;
+    const std::string stem = std::filesystem::path(options.model).stem().string();
+    const auto in = [&](const std::string& name) { return (directory / name).string(); };
+    OutputFiles out{{}, {}, in(stem + ".toml"), in(stem + ".patch"), in("report.html")};
+    for (std::size_t k = 1; k <= options.recordings.size(); ++k) {
+        const std::string number = k == 1 ? "" : "_" + std::to_string(k);
+        out.before.push_back(in("before" + number + ".csv"));
+        out.after.push_back(in("after" + number + ".csv"));
+    }
+    return out;
+}
+
+ordered_json effect_json(const lab::NamedEffect& effect) {
+    return {{"name", effect.name}, {"equation", effect.equation}, {"term", effect.term}, {"parameters", parameters_json(effect.parameters)}};
+}
+
+ordered_json evidence_json(const lab::Evidence& e) {
+    return {{"step", e.step}, {"effect", e.effect}, {"equation", e.equation}, {"term", e.term}, {"strength", number_or_null(e.strength)}, {"validation", number_or_null(e.validation)},
+            {"gain", number_or_null(e.improvement)}, {"chosen", e.chosen}, {"rival", e.rival}};
+}
+
+ordered_json outputs_json(const std::vector<lab::OutputGap>& outputs) {
+    ordered_json out = ordered_json::array();
+    for (const auto& o : outputs) out.push_back({{"signal", o.signal}, {"nrmse_before", o.before}, {"nrmse_after", o.after}, {"noise_floor", o.floor}});
+    return out;
+}
+
+ordered_json recordings_json(const lab::Discovery& d, const OutputFiles& files) {
+    ordered_json out = ordered_json::array();
+    for (std::size_t k = 0; k < d.recordings.size(); ++k) {
+        const lab::RecordingEvidence& r = d.recordings[k];
+        out.push_back({{"recording", r.file}, {"train_s", {r.train_from_s, r.train_to_s}}, {"test_s", {r.test_from_s, r.test_to_s}}, {"gain", r.gain},
+                       {"outputs", outputs_json(r.outputs)}, {"before", files.before[k]}, {"after", files.after[k]}});
+    }
+    return out;
+}
+
+ordered_json discovery_json(const lab::Discovery& d, const OutputFiles& files, bool amended) {
     ordered_json out;
     out["verdict"] = lab::name(d.verdict);
     out["effects"] = ordered_json::array();
@@ -62,13 +118,17 @@ ordered_json discovery_json(const lab::Discovery& d, const std::string& model_fi
     out["alternatives"] = d.alternatives;
     out["experiments"] = d.experiments;
     out["doubts"] = d.doubts;
+    out["evidence"] = ordered_json::array();
+    for (const auto& e : d.evidence) out["evidence"].push_back(evidence_json(e));
+    out["parameters_before"] = parameters_json(d.parameters_before);
+    out["parameters_after"] = parameters_json(d.parameters_after);
     out["where"] = ordered_json::array();
     for (const auto& w : d.where) out["where"].push_back({{"equation", w.equation}, {"share", w.share}, {"from_s", w.from_s}, {"to_s", w.to_s}, {"region", w.region}});
-    out["outputs"] = ordered_json::array();
-    for (const auto& o : d.outputs) out["outputs"].push_back({{"signal", o.signal}, {"nrmse_before", o.before}, {"nrmse_after", o.after}, {"noise_floor", o.floor}});
-    out["model"] = model_file.empty() ? ordered_json(nullptr) : ordered_json(model_file);
-    out["patch"] = patch_file.empty() ? ordered_json(nullptr) : ordered_json(patch_file);
-    out["report"] = report_file;
+    out["outputs"] = outputs_json(d.first().outputs);
+    out["recordings"] = recordings_json(d, files);
+    out["model"] = amended ? ordered_json(files.model) : ordered_json(nullptr);
+    out["patch"] = amended ? ordered_json(files.patch) : ordered_json(nullptr);
+    out["report"] = files.report;
     return out;
 }
 
@@ -87,31 +147,21 @@ std::string discovery_text(const lab::Discovery& d, const std::string& report_fi
     }
     out += "\nwhere the model was off (share of the gap)\n";
     for (const auto& w : d.where) out += fmt::format("  {:5.1f} %  {}, {:.4g} s to {:.4g} s, {}\n", 100 * w.share, w.equation, w.from_s, w.to_s, w.region);
-    out += fmt::format("\n{:<12} {:>12} {:>12} {:>12}\n", "signal", "before [1]", "after [1]", "floor [1]");
-    for (const auto& o : d.outputs) out += fmt::format("{:<12} {:>12.4g} {:>12.4g} {:>12.4g}\n", o.signal, o.before, o.after, o.floor);
+    for (const auto& r : d.recordings) {
+        if (d.recordings.size() > 1) out += fmt::format("\n{}: gain {:.3g} [1]", r.file, r.gain);
+        out += fmt::format("\n{:<12} {:>12} {:>12} {:>12}\n", "signal", "before [1]", "after [1]", "floor [1]");
+        for (const auto& o : r.outputs) out += fmt::format("{:<12} {:>12.4g} {:>12.4g} {:>12.4g}\n", o.signal, o.before, o.after, o.floor);
+    }
     out += fmt::format("\nreport: {}\n", report_file);
     return out;
 }
 
-struct OutputFiles {
-    std::string before;
-    std::string after;
-    std::string model;
-    std::string patch;
-    std::string report;
-};
-
-OutputFiles output_files(const DiscoverOptions& options) {
-    const std::filesystem::path directory = options.directory;
-    const std::string stem = std::filesystem::path(options.model).stem().string();
-    const auto in = [&](const std::string& name) { return (directory / name).string(); };
-    return {in("before.csv"), in("after.csv"), in(stem + ".toml"), in(stem + ".patch"), in("report.html")};
-}
-
 /// False, and an error, where an output would take the place of the model or the recording.
 bool keeps_inputs(const OutputFiles& files, const DiscoverOptions& options, Diagnostics& diagnostics) {
-    for (const std::string& input : {options.model, options.recording}) {
-        for (const std::string& output : {files.before, files.after, files.model, files.patch, files.report}) {
+    std::vector<std::string> inputs = options.recordings;
+    inputs.push_back(options.model);
+    for (const std::string& input : inputs) {
+        for (const std::string& output : files.all()) {
             std::error_code error;
             if (!std::filesystem::equivalent(input, output, error)) continue;
             diagnostics.error(input, {}, "would be overwritten by a file of the same name in -o " + options.directory, "choose another folder for -o");
@@ -119,6 +169,30 @@ bool keeps_inputs(const OutputFiles& files, const DiscoverOptions& options, Diag
         }
     }
     return true;
+}
+
+/// Asked before the search, so that its work is not in vain: of the folder, or of the nearest one above that exists.
+bool can_hold_files(const std::string& directory, Diagnostics& diagnostics) {
+    std::error_code error;
+    std::filesystem::path there = std::filesystem::absolute(directory, error);
+    while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+    if (std::filesystem::is_directory(there, error) && ::access(there.c_str(), W_OK | X_OK) == 0) return true;
+    diagnostics.error(directory, {}, "no folder that can be written into", "choose another one for -o");
+    return false;
+}
+
+/// Each once: a recording that is given twice would count twice.
+std::vector<lab::Recording> read_recordings(const DiscoverOptions& options, Diagnostics& diagnostics) {
+    const std::vector<std::string>& paths = options.recordings;
+    std::vector<lab::Recording> out;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+        std::error_code error;
+        const bool twice = std::any_of(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(k), [&](const std::string& other) { return std::filesystem::equivalent(paths[k], other, error); });
+        if (twice) diagnostics.error(paths[k], {}, "the same recording twice", "give each once");
+        auto recording = lab::read_recording(paths[k], diagnostics, options.csv);
+        if (recording) out.push_back(std::move(*recording));
+    }
+    return out;
 }
 
 }  // namespace
@@ -130,38 +204,43 @@ int discover(const DiscoverOptions& options) {
     if (!options.test.empty()) stretches.test_s = stretch("--test", options.test, diagnostics);
     if (diagnostics.has_errors()) return fail(diagnostics, options.json);
     const auto text = model::read_text(options.model, 1024 * 1024, diagnostics);
-    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);
-    const auto effects = lab::read_effects(effect_folders(options.model), diagnostics);
+    const std::vector<lab::Recording> recordings = read_recordings(options, diagnostics);
+    const auto folders = effect_folders(options.model);
+    const auto effects = lab::read_effects(folders, diagnostics);
     if (effects.empty() && !diagnostics.has_errors()) {
-        diagnostics.error("algest discover", {}, "no library of effects beside the program", "install algest, run build/algest, or put a folder `effects` beside the model");
+        diagnostics.error("algest discover", {}, fmt::format("no effects in {}", fmt::join(folders, ", nor in ")), "install algest, run build/algest, or put a folder `effects` beside the model");
     }
-    if (!text || !recording || diagnostics.has_errors()) return fail(diagnostics, options.json);
+    if (!text || diagnostics.has_errors()) return fail(diagnostics, options.json);
 
     const OutputFiles files = output_files(options);
-    if (!keeps_inputs(files, options, diagnostics)) return fail(diagnostics, options.json);
+    if (!keeps_inputs(files, options, diagnostics) || !can_hold_files(options.directory, diagnostics)) return fail(diagnostics, options.json);
 
     const auto found = [&] {
         ProgressLine progress("discover");
-        return lab::discover(*text, options.model, *recording, effects, stretches, diagnostics, [&](const std::string&, double share) { progress.show(share); });
+        return lab::discover(*text, options.model, recordings, effects, stretches, diagnostics, [&](const std::string&, double share) { progress.show(share); });
     }();
     if (!found) return fail(diagnostics, options.json);
     const auto model = model::read_from_text(*text, options.model, false, diagnostics);
 
     const bool amended = found->model_text != *text;
-    const std::string model_file = amended ? files.model : "";
-    const std::string patch_file = amended ? files.patch : "";
     const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
+    const lab::ReportFiles named{options.model, options.recordings, options.directory, amended ? files.model : "", amended ? files.patch : "", patch};
+    std::vector<lab::NewFile> written = {{files.report, lab::report_html(*found, *model, recordings[0], named, lab::gnuplot, diagnostics)}};
+    for (std::size_t k = 0; k < recordings.size(); ++k) {
+        written.push_back({files.before[k], lab::run_csv(*model, recordings[k], found->recordings[k].before)});
+        written.push_back({files.after[k], lab::run_csv(*model, recordings[k], found->recordings[k].after)});
+    }
+    const bool applied = options.apply && found->verdict == lab::Verdict::named;
+    if (amended) written.insert(written.end(), {{files.patch, patch}, {files.model, found->model_text}});
+    if (amended && applied) written.push_back({options.model, found->model_text});
     std::error_code error;
-    std::filesystem::create_directories(options.directory, error);
-    const auto write = [&](const std::string& path, const std::string& content) { return lab::write_file(path, content, diagnostics); };
-    const lab::ReportFiles named{options.model, options.recording, options.directory, model_file, patch_file, patch};
-    bool written = write(files.before, lab::run_csv(*model, *recording, found->before)) && write(files.after, lab::run_csv(*model, *recording, found->after));
-    if (written && amended) written = write(patch_file, patch) && write(model_file, found->model_text);
-    written = written && write(files.report, lab::report_html(*found, *model, *recording, named, lab::gnuplot, diagnostics));
-    if (written && amended && options.apply) written = write(options.model, found->model_text);   // the user's own file last, when all else stands
-    if (!written) return fail(diagnostics, options.json);
+    std::filesystem::create_directories(options.directory, error);   // where it cannot be, the files say so
+    if (!lab::write_files(written, diagnostics)) return fail(diagnostics, options.json);
+    if (!amended) for (const std::string& stale : {files.model, files.patch}) std::filesystem::remove(stale);   // of an earlier run, which this one takes back
     print_diagnostics(diagnostics);
-    if (options.json) print_json(discovery_json(*found, model_file, patch_file, files.report));
+    if (applied) note("wrote the amended model into " + options.model);
+    else if (options.apply) note(fmt::format("--apply: the verdict is {}, so {} stays as it is", lab::name(found->verdict), options.model));
+    if (options.json) print_json(discovery_json(*found, files, amended));
     else print(discovery_text(*found, files.report));
     return exit_done;
 }

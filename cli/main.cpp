@@ -2,12 +2,14 @@
 // algest: parses the command line, calls a command, prints what went wrong.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
 
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
+#include "generator/suggestion.hpp"
 
 namespace {
 
@@ -121,14 +123,14 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
 CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
     CLI::App* command = app.add_subcommand("discover", "Finds what a model misses, names it and writes it into the model");
     command->add_option("MODEL", options.model, "model file")->required();
-    command->add_option("RECORDING", options.recording, recording_text)
+    command->add_option("RECORDING", options.recordings, std::string(recording_text) + "; several: all of one machine")
         ->required();
     command->add_option("-o,--output", options.directory, "folder for the amended model, its patch, before.csv and after.csv")
         ->type_name("DIR")
         ->required();
-    command->add_option("--train", options.train, "seconds to fit and choose on; default: the first 70 percent")->type_name("A:B");
-    command->add_option("--test", options.test, "seconds to score on, once; default: the rest")->type_name("C:D");
-    command->add_flag("--apply", options.apply, "write what was named into the model file itself");
+    command->add_option("--train", options.train, "seconds of each recording to fit and choose on; default: the first 70 percent")->type_name("A:B");
+    command->add_option("--test", options.test, "seconds of each recording to score on, once; default: the rest")->type_name("C:D");
+    command->add_flag("--apply", options.apply, "write what was named (no other verdict) into the model file itself");
     add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
     command->footer(
@@ -137,6 +139,7 @@ CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
         "Exit code: 0 done, 2 a model or a file is at fault.\n\n"
         "Examples:\n"
         "  algest discover motor.toml run.csv -o found\n"
+        "  algest discover motor.toml slow.csv fast.csv -o found\n"
         "  algest discover motor.toml run.csv -o found --train 0:7 --test 7:10 --json");
     return command;
 }
@@ -165,6 +168,13 @@ int parse_and_run(int argc, char** argv, bool json) {
     const CLI::App* replay_command = add_replay(app, replay_options);
     const CLI::App* simulate_command = add_simulate(app, simulate_options);
     const CLI::App* discover_command = add_discover(app, discover_options);
+    if (argc > 1 && argv[1][0] != '-') {
+        std::vector<std::string> known;
+        for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+        if (std::find(known.begin(), known.end(), argv[1]) == known.end()) {
+            return complain("there is no command " + algest::quoted(argv[1]), algest::did_you_mean(argv[1], known) + "`algest --help` lists what there is", json);
+        }
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -185,7 +195,10 @@ int parse_and_run(int argc, char** argv, bool json) {
 
 int main(int argc, char** argv) {
     bool json = false;
-    for (int k = 1; k < argc; ++k) json = json || std::string(argv[k]) == "--json";
+    for (int k = 1; k < argc; ++k) {
+        const std::string word = argv[k];
+        json = json || word == "--json" || word == "--format=json" || (word == "json" && std::string(argv[k - 1]) == "--format");
+    }
     int code = exit_bad_input;
     try {
         code = parse_and_run(argc, argv, json);

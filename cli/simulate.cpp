@@ -29,8 +29,8 @@ std::optional<std::map<std::string, double>> settings(const std::vector<std::str
         const std::size_t equals = text.find('=');
         double value = 0;
         const char* end = text.data() + text.size();
-        const bool number = equals != std::string::npos &&
-                            std::from_chars(text.data() + equals + 1, end, value).ptr == end && equals + 1 < text.size();
+        const auto read = equals == std::string::npos ? std::from_chars_result{end, std::errc::invalid_argument} : std::from_chars(text.data() + equals + 1, end, value);
+        const bool number = read.ec == std::errc() && read.ptr == end;
         if (!number || !std::isfinite(value) || !out.emplace(text.substr(0, equals), value).second) {
             diagnostics.error("algest simulate", {}, "--set " + text + " is not NAME=VALUE with a finite number, each name once", "e.g. --set R=3.01");
             return std::nullopt;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algest/boxcar.hpp"
+#include "algest/delay_line.hpp"
 #include "generator/blueprint.hpp"
 #include "generator/exact.hpp"
 #include "generator/generate.hpp"
@@ -141,6 +142,10 @@ int instance_bytes(const Plan& plan) {
         for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
         bytes += 8;
     }
+    if (!plan.past.empty()) {
+        scalars += static_cast<int>(plan.delayed_inputs().size()) * plan.delay_length();
+        bytes += static_cast<int>(sizeof(DelayProgress));
+    }
     bytes += scalars * scalar_bytes(plan);
     const int alignment = scalar_bytes(plan);
     return (bytes + alignment - 1) / alignment * alignment;
@@ -218,6 +223,32 @@ void set_cost(const Plan& plan, Data& d) {
     d.set("first_ok_s", exact::decimal(exact::from_text(plan.period_text) * (first_ok - 1)));
 }
 
+/// Delay lines: one an input of which some past is read, all of one length.
+void set_past(const Plan& plan, Data& d) {
+    const std::vector<int> lines = plan.delayed_inputs();
+    DataList names;
+    for (const int i : lines) {
+        Data line;
+        line.set("name", plan.inputs[static_cast<std::size_t>(i)].name);
+        names.push_back(line);
+    }
+    DataList past;
+    for (const plan::PastInput& p : plan.past) {
+        const auto line = std::find(lines.begin(), lines.end(), p.input) - lines.begin();
+        Data one;
+        one.set("number", std::to_string(past.size()));
+        one.set("offset", std::to_string(line * plan.delay_length()));
+        one.set("ago", std::to_string(p.samples));
+        one.set("name", plan.inputs[static_cast<std::size_t>(p.input)].name);
+        past.push_back(one);
+    }
+    d.set("has_past", !plan.past.empty());
+    d.set("delay_length", std::to_string(plan.delay_length()));
+    d.set("delay_lines", std::to_string(lines.size()));
+    d.set("lines", listed(names));
+    d.set("past", listed(past));
+}
+
 std::string estimator_header(const Plan& plan, const std::string& hash) {
     Data d = head(plan, hash);
     set_cost(plan, d);
@@ -244,10 +275,12 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
     d.set("filters", listed(filters));
 
     const PrintedTape signals(plan.signals, plan, "v", [&](Op op, int k) {
+        if (k >= static_cast<int>(plan.inputs.size())) return "past" + std::to_string(k - static_cast<int>(plan.inputs.size()));
         const std::string& name = plan.inputs[static_cast<std::size_t>(k)].name;
         return op == Op::input ? "s." + name : op == Op::previous ? "previous_." + name : "derivative_" + name;
     });
     d.set("signal_lines", signals.lines());
+    set_past(plan, d);
     DataList windows;
     for (std::size_t k = 0; k < static_cast<std::size_t>(plan.rings()); ++k) {
         const bool signal = k < plan.window_signals.size();

@@ -31,8 +31,8 @@ constexpr std::array<std::string_view, 39> taken = {
     "M_E", "M_Ef", "M_El", "M_PI", "M_PIf", "M_PIl", "M_LN2", "M_LN10", "M_SQRT2", "RAND_MAX", "MAXFLOAT"};
 
 // Models whose class would hide one that generated code uses.
-constexpr std::array<std::string_view, 14> taken_by_runtime = {
-    "blueprint", "boxcar_progress", "estimate", "functional", "latest", "memory", "noise_channel", "parabola_filter", "progress", "sample", "scalar", "solve",
+constexpr std::array<std::string_view, 15> taken_by_runtime = {
+    "blueprint", "boxcar_progress", "delay_progress", "estimate", "functional", "latest", "memory", "noise_channel", "parabola_filter", "progress", "sample", "scalar", "solve",
     "status", "term"};
 
 template <std::size_t N>

@@ -10,6 +10,13 @@ namespace {
 
 using exact::Rational;
 
+/// How a tape reads an input.
+struct Reading {
+    plan::Op op;
+    int input;   ///< of the tape
+    int ago;     ///< samples
+};
+
 /// Every row has noise of its own, and the unknowns a value to start from.
 bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Diagnostics& diagnostics) {
     const Position at = model.estimator.at;
@@ -32,23 +39,25 @@ bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Di
 
 }  // namespace
 
-NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<int>& window_operations, plan::Scalar scalar,
-                             TapeBuilder& tape) {
+NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<plan::PastInput>& past,
+                             const std::vector<int>& window_operations, plan::Scalar scalar, TapeBuilder& tape) {
     NoiseChannels out;
+    const int inputs = static_cast<int>(std::count_if(input_of_signal.begin(), input_of_signal.end(), [](int i) { return i >= 0; }));
     for (std::size_t s = 0; s < model.signals.size(); ++s) {
         const auto& sigma = model.signals[s].noise;
         const int input = input_of_signal[s];
         if (input < 0 || !sigma || cln::zerop(*sigma)) continue;
         // A mean over N samples has a deviation of sigma/sqrt(N), the halves of its ends aside.
         const Rational size = model.decimate == 1 ? *sigma : *sigma * *exact::function_value("sqrt", Rational(1) / model.decimate);
+        std::vector<Reading> readings = {{plan::Op::input, input, 0}, {plan::Op::previous, input, 1}};
+        for (std::size_t k = 0; k < past.size(); ++k) if (past[k].input == input) readings.push_back({plan::Op::input, inputs + static_cast<int>(k), past[k].samples});
         for (std::size_t w = 0; w < window_operations.size(); ++w) {
             if (tape.partial(window_operations[w], plan::Op::derivative, input) >= 0) return {{}, {}, model.signals[s].name};
-            for (const plan::Op reads : {plan::Op::input, plan::Op::previous}) {
-                const int partial = tape.partial(window_operations[w], reads, input);
+            for (const Reading& reading : readings) {
+                const int partial = tape.partial(window_operations[w], reading.op, reading.input);
                 if (partial < 0) continue;
                 const auto constant = tape.constant_value(partial);
-                const int lag = reads == plan::Op::previous && model.decimate == 1 ? 1 : 0;
-                plan::NoiseChannel channel{input, static_cast<int>(w), -1, lag, exact::nearest(constant ? *constant * size : size, scalar)};
+                plan::NoiseChannel channel{input, static_cast<int>(w), -1, reading.ago / model.decimate, exact::nearest(constant ? *constant * size : size, scalar)};
                 if (!constant) {
                     const auto known = std::find_if(out.partials.begin(), out.partials.end(), [&](const NoiseChannels::Partial& p) { return p.operation == partial; });
                     channel.partial = static_cast<int>(known - out.partials.begin());

@@ -21,9 +21,10 @@ struct NoiseChannels {
     std::string through_a_filter;               ///< a noisy signal whose derivative by the parabola filter a window holds: then no channels; else empty
 };
 
-/// input_of_signal: by the model's signals, -1: no input; inputs stand in the order of the signals. window_operations: of the tape, by window signal.
-NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<int>& window_operations, plan::Scalar scalar,
-                             TapeBuilder& tape);
+/// input_of_signal: by the model's signals, -1: no input; inputs stand in the order of the signals, `past` behind them. window_operations: of the
+/// tape, by window signal. In a decimated plan a lag counts whole means.
+NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<plan::PastInput>& past,
+                             const std::vector<int>& window_operations, plan::Scalar scalar, TapeBuilder& tape);
 
 /// Completes the plan: drops what changes nothing, with a note. Complains and answers false where whitening, a deviation limit or uncertainty() was
 /// asked for and cannot be had.

@@ -33,6 +33,8 @@ namespace {
 using equation::OperatorForm;
 using exact::Rational;
 
+constexpr int longest_delay = 10000;   ///< sampling periods: a ring in every instance
+
 class Planner {
 public:
     Planner(const model::Model& model, const PlanOptions& options, Diagnostics& diagnostics)
@@ -41,7 +43,6 @@ public:
     std::optional<plan::Plan> run() {
         if (!what_is_missing()) return std::nullopt;
         if (model_.discrete) return run_discrete();
-        if (!nothing_is_delayed()) return std::nullopt;
         const auto forms = operator_forms(model_, diagnostics_);
         if (!forms) return std::nullopt;
         forms_ = *forms;
@@ -57,6 +58,7 @@ public:
         head();
         equations();
         inputs();
+        if (!past_inputs()) return std::nullopt;
         solver();
         tables_and_rows(*weights);
         unknowns_and_parameters();
@@ -95,15 +97,6 @@ private:
                                "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
         }
         if (model_.parameters.empty() && !model_.discrete) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
-        return !diagnostics_.has_errors();
-    }
-
-    bool nothing_is_delayed() {
-        for (const model::Equation& e : model_.equations) {
-            std::vector<model::Delay> delays;
-            for (const formula::Formula& side : {e.sides.left, e.sides.right}) model::add_delays(model_, side, delays);
-            for (const model::Delay& d : delays) diagnostics_.error(e.file, e.place(d.call->start), "an estimator cannot delay a signal in this version", "feed it the delayed samples as a signal of their own");
-        }
         return !diagnostics_.has_errors();
     }
 
@@ -210,6 +203,48 @@ private:
         for (const formula::Formula& a : f->arguments) collect_differentiated(a, out);
     }
 
+    /// Past inputs of every delay in an equation that is used; false after an error.
+    bool past_inputs() {
+        for (std::size_t e = 0; e < forms_.size(); ++e) {
+            if (!lumping_.equations[e].used) continue;
+            std::vector<model::Delay> delays;
+            for (const lumping::LumpedTerm& term : lumping_.equations[e].terms) {
+                for (const equation::Factor& f : forms_[e].terms[static_cast<std::size_t>(term.term)].product) {
+                    model::add_delays(model_, forms_[e].atoms[static_cast<std::size_t>(f.atom)].formula, delays);
+                }
+            }
+            for (const model::Delay& d : delays) {
+                const Rational samples = *d.by / *model_.period;
+                if (samples > longest_delay) {
+                    diagnostics_.error(model_.path, model_.equations[e].place(d.call->start), "a delay of " + exact::decimal(*d.by) + " s is more than " + std::to_string(longest_delay) + " sampling periods",
+                                       "feed the delayed samples as a signal of their own");
+                    return false;
+                }
+                const bool late = forms_[e].delayed;
+                delays_[{d.text, late}] = delayed_input(input_of_signal_[static_cast<std::size_t>(d.signal)], cln::cl_I_to_int(cln::floor1(samples)), samples - cln::floor1(samples), late);
+            }
+        }
+        return true;
+    }
+
+    /// Between two samples a delayed signal runs straight, whatever its hold: of a held one that is its mean over the period.
+    DelayedInput delayed_input(int input, int whole, const Rational& rest, bool late) {
+        const int back = whole + (late ? 1 : 0);
+        const int newer = past_input(input, back);
+        return {plan::Op::input, newer, cln::zerop(rest) ? -1 : past_input(input, back + 1), rest};
+    }
+
+    /// Input of the signals' tape.
+    int past_input(int input, int samples) {
+        if (samples == 0) return input;
+        const int inputs = static_cast<int>(plan_.inputs.size());
+        for (std::size_t k = 0; k < plan_.past.size(); ++k) {
+            if (plan_.past[k].input == input && plan_.past[k].samples == samples) return inputs + static_cast<int>(k);
+        }
+        plan_.past.push_back({input, samples});
+        return inputs + static_cast<int>(plan_.past.size()) - 1;
+    }
+
     bool held(std::size_t e, const equation::Product& product) const {
         bool held = true;
         for (const equation::Factor& factor : product) {
@@ -285,7 +320,9 @@ private:
     }
 
     void tables_and_rows(const RowWeights& weights) {
-        TapeBuilder tape(model_, plan_.scalar, {input_of_signal_});
+        TapeInputs tape_inputs{input_of_signal_};
+        tape_inputs.delay = delays_;
+        TapeBuilder tape(model_, plan_.scalar, tape_inputs);
         for (std::size_t r = 0; r < rows_.size(); ++r) {
             const std::size_t e = static_cast<std::size_t>(rows_[r].equation);
             plan::Row row{equation_index_[e], rows_[r].p, {}};
@@ -318,7 +355,7 @@ private:
     void noise(TapeBuilder& tape) {
         const model::Estimator& e = model_.estimator;
         if (e.solve == model::Solver::least_squares || !e.uncertainty.value_or(true)) return;
-        noise_ = noise_channels(model_, input_of_signal_, window_operations_, plan_.scalar, tape);
+        noise_ = noise_channels(model_, input_of_signal_, plan_.past, window_operations_, plan_.scalar, tape);
         plan_.noise = noise_.channels;
         for (const NoiseChannels::Partial& p : noise_.partials) {
             plan_.partials.push_back("d(" + plan_.window_signals[static_cast<std::size_t>(p.signal)].text + ")/d(" + plan_.inputs[static_cast<std::size_t>(p.input)].name + ")");
@@ -492,6 +529,7 @@ private:
     std::vector<ChosenRow> rows_;
     std::vector<int> equation_index_;
     std::vector<int> input_of_signal_;
+    std::map<std::pair<std::string, bool>, DelayedInput> delays_;  // by text, and whether the equation is one sample late
     std::map<std::array<int, 5>, kernel::Coefficients> kernels_;   // by derivative, p, perturbation, n, kappa
     std::vector<int> window_operations_;                           // of the signals' tape, by window signal
     NoiseChannels noise_;

@@ -27,6 +27,12 @@ struct Input {
     bool differentiated;   ///< a parabola filter runs on it
 };
 
+/// An input some samples ago; the signals' tape reads it behind the inputs.
+struct PastInput {
+    int input;       ///< index into inputs
+    int samples;     ///< of the period, at least 1
+};
+
 /// What one ring holds: an input, or something computed from inputs sample by sample.
 struct WindowSignal {
     std::string text;      ///< the formula in canonical order, as `derive` names it
@@ -174,9 +180,10 @@ struct Plan {
     Quadrature quadrature;
 
     std::vector<Input> inputs;
+    std::vector<PastInput> past;
     std::vector<WindowSignal> window_signals;
     std::vector<std::string> partials;   ///< what the rings beside the window signals hold: derivatives of window signals by noisy inputs
-    Tape signals;              ///< inputs -> window signals, then partials; needs the sample before if any signal is delayed
+    Tape signals;              ///< inputs, then past inputs -> window signals, then partials; needs the sample before if any signal is delayed
     std::vector<Table> tables;
     std::vector<Equation> equations;
     std::vector<Row> rows;
@@ -206,7 +213,23 @@ struct Plan {
     /// From a start or restart: the window, the instants of S(t), the samples that a first mean and a delayed model need before.
     int samples_to_first_estimate() const {
         const int instants = samples() + (solve_instants > 0 ? solve_instants - 1 : 0);
-        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0);
+        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0) + delay_length();
+    }
+    /// Samples that the lines of past inputs hold; 0: there are none.
+    int delay_length() const {
+        int out = 0;
+        for (const PastInput& p : past) if (p.samples > out) out = p.samples;
+        return out;
+    }
+    /// Inputs of which some past is read, in their order: each has a line.
+    std::vector<int> delayed_inputs() const {
+        std::vector<int> out;
+        for (int i = 0; i < static_cast<int>(inputs.size()); ++i) {
+            bool used = false;
+            for (const PastInput& p : past) used = used || p.input == i;
+            if (used) out.push_back(i);
+        }
+        return out;
     }
     bool delayed() const {
         for (const WindowSignal& s : window_signals) if (s.delayed) return true;

@@ -60,6 +60,10 @@ std::string plan_hash(const plan::Plan& plan) {
         hash.add(i.max);
         hash.add(i.differentiated);
     }
+    for (const plan::PastInput& p : plan.past) {
+        hash.add(p.input);
+        hash.add(p.samples);
+    }
     for (const plan::WindowSignal& s : plan.window_signals) {
         hash.add(s.text);
         hash.add(static_cast<int>(s.hold));

@@ -68,7 +68,7 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
         case Kind::negate: return add(Op::neg, formula(f->arguments[0], delayed));
         case Kind::call: {
             if (f->name == "der") return derivative(f);
-            if (f->name == "delay") return add(delayed ? Op::previous : Op::input, inputs_.delay.at(formula::text(f)));
+            if (f->name == "delay") return delayed_input(inputs_.delay.at({formula::text(f), delayed}));
             const auto relay = inputs_.relay.find(f.get());
             if (relay != inputs_.relay.end()) return add(Op::input, relay->second);
             const int a = formula(f->arguments[0], delayed);
@@ -107,6 +107,15 @@ int TapeBuilder::derivative(const formula::Formula& der) {
     const auto known = inputs_.derivative.find({signal, order});
     if (known != inputs_.derivative.end()) return add(Op::input, known->second);
     return add(Op::derivative, inputs_.signal[static_cast<std::size_t>(signal)]);
+}
+
+int TapeBuilder::delayed_input(const DelayedInput& d) {
+    const int newer = add(d.op, d.newer);
+    if (d.older < 0) return newer;
+    const int older = add(d.op, d.older);
+    const int part = add(Op::mul, newer, constant(1 - d.rest));
+    const int rest = add(Op::mul, older, constant(d.rest));
+    return add(Op::add, part, rest);
 }
 
 int TapeBuilder::product(const equation::OperatorForm& form, const equation::Product& product, bool delayed) {

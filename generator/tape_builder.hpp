@@ -11,6 +11,14 @@
 
 namespace algest {
 
+/// What a call of delay() reads: an input, or between two of them.
+struct DelayedInput {
+    plan::Op op;             ///< input or previous
+    int newer;
+    int older;               ///< -1: none
+    exact::Rational rest;    ///< of the older one, 0 to 1
+};
+
 /// Which inputs of the tape the names of a model are.
 struct TapeInputs {
     std::vector<int> signal;                               ///< by the model's signals; -1: not an input
@@ -18,7 +26,7 @@ struct TapeInputs {
     std::map<std::pair<int, int>, int> derivative = {};    ///< (signal, order); one that is not here is left to the parabola filter
     std::map<const formula::Node*, int> relay = {};        ///< calls of sgn() whose value is an input; none else
     std::map<const formula::Node*, int> layer = {};        ///< calls of sgn() that rise from -1 to 1 over twice the width that is an input; none else
-    std::map<std::string, int> delay = {};                 ///< calls of delay(), by their text; one that is not here may not occur
+    std::map<std::pair<std::string, bool>, DelayedInput> delay = {};   ///< calls of delay(), by their text and whether all is one sample late; one that is not here may not occur
 };
 
 class TapeBuilder {
@@ -65,6 +73,7 @@ private:
     int constant(const exact::Rational& value);
     int power(int base, int exponent);
     int derivative(const formula::Formula& der);
+    int delayed_input(const DelayedInput& d);
     int polynomial(const Polynomial& p, const std::vector<int>& variables);
     int derived(int operation, plan::Op kind, int k);
     int sum_of(int a, int b);

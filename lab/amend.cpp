@@ -32,6 +32,24 @@ int highest_order(const formula::Formula& f) {
     return order;
 }
 
+/// With which sign the derivative of this order stands in a formula; 0: it does not.
+int sign_of_derivative(const formula::Formula& f, int order) {
+    using formula::Kind;
+    const auto of = [&](std::size_t k) { return sign_of_derivative(f->arguments[k], order); };
+    switch (f->kind) {
+        case Kind::call: return f->name == "der" && order_of_derivative(f) == order ? 1 : 0;
+        case Kind::negate: return -of(0);
+        case Kind::add: return of(0) != 0 ? of(0) : of(1);
+        case Kind::subtract: return of(0) != 0 ? of(0) : -of(1);
+        case Kind::divide: return of(0);
+        case Kind::multiply: {
+            const std::size_t other = of(0) != 0 ? 1 : 0;
+            return of(1 - other) * (f->arguments[other]->kind == Kind::negate ? -1 : 1);
+        }
+        default: return 0;
+    }
+}
+
 /// To six digits, and not below the bound that stands beside it.
 std::string value_text(const NewName& n) {
     const std::string rounded = fmt::format("{:.6g}", n.value);
@@ -80,6 +98,18 @@ bool is_word(const std::string& text) {
     return std::all_of(text.begin(), text.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
 }
 
+/// A word, or the call of a function: nothing beside it binds tighter.
+bool stands_alone(const std::string& text) {
+    const std::size_t open = text.find('(');
+    if (open == std::string::npos || open == 0 || !is_word(text.substr(0, open))) return is_word(text);
+    int depth = 0;
+    for (std::size_t at = open; at < text.size(); ++at) {
+        if (text[at] == '(') ++depth;
+        else if (text[at] == ')' && --depth == 0) return at + 1 == text.size();
+    }
+    return false;
+}
+
 /// Edits of one text, collected by the positions that it has before them.
 class Edits {
 public:
@@ -88,10 +118,13 @@ public:
     void add_term(std::size_t equation, const std::string& written) {
         const model::Equation& e = model_.equations[equation];
         const bool leading_left = highest_order(e.sides.left) >= highest_order(e.sides.right);
+        const formula::Formula& leading_side = leading_left ? e.sides.left : e.sides.right;
+        // Beside the driving terms: across from the leading derivative, or next to it where it stands among them with a minus.
+        const bool across = sign_of_derivative(leading_side, highest_order(leading_side)) >= 0;
         std::string term = written;
         if (term[0] == '-' || term[0] == '+') term = term.substr(0, 1) + " " + term.substr(term[1] == ' ' ? 2 : 1);
         else term = "+ " + term;
-        std::size_t at = offset_of(text_, e.place(static_cast<int>(leading_left ? e.ode.size() : e.ode.find('='))));
+        std::size_t at = offset_of(text_, e.place(static_cast<int>(leading_left == across ? e.ode.size() : e.ode.find('='))));
         while (at > 0 && text_[at - 1] == ' ') --at;
         insert(at, " " + term);
     }
@@ -104,7 +137,7 @@ public:
         }
         const std::string derivative = s.derivative.empty() && is_word(s.by) ? "der(" + s.by + ")" : s.derivative;
         if (derivative.empty()) return;
-        for (const Stretch& at : places.derivatives) replace(e, at, filled(derivative, {{"derivative", e.ode.substr(at.begin, at.end - at.begin)}}));
+        for (const Stretch& at : places.derivatives) replace(e, at, filled(derivative, {{"derivative", s.what[0] == '(' ? in_parentheses(e.ode.substr(at.begin, at.end - at.begin)) : e.ode.substr(at.begin, at.end - at.begin)}}));
     }
 
     /// An entry of a table, behind the last one that stands on a line of its own; else a table of its own at the end.
@@ -175,10 +208,10 @@ private:
 
     void insert(std::size_t at, std::string text) { splices_.push_back({at, at, std::move(text)}); }
 
-    /// In parentheses, unless it is a word or stands in parentheses already.
+    /// In parentheses, unless it stands alone or in parentheses already.
     void replace(const model::Equation& e, const Stretch& at, const std::string& by) {
         const bool enclosed = at.begin > 0 && e.ode[at.begin - 1] == '(' && at.end < e.ode.size() && e.ode[at.end] == ')';
-        splices_.push_back({offset_of(text_, e.place(static_cast<int>(at.begin))), offset_of(text_, e.place(static_cast<int>(at.end))), enclosed || is_word(by) ? by : in_parentheses(by)});
+        splices_.push_back({offset_of(text_, e.place(static_cast<int>(at.begin))), offset_of(text_, e.place(static_cast<int>(at.end))), enclosed || stands_alone(by) ? by : in_parentheses(by)});
     }
 
     /// Behind the last line of the last [[equation]].

@@ -50,6 +50,13 @@ private:
     std::map<std::size_t, std::string> terms_;
 };
 
+/// The signal v with an equation der(x) = v; empty: none.
+std::string rate_of(const model::Model& model, const std::string& x) {
+    const int position = model.signal_index(x);
+    for (std::size_t s = 0; s < model.signals.size(); ++s) if (integral_of(model, static_cast<int>(s)) == position) return model.signals[s].name;
+    return "";
+}
+
 bool has_role(const Effect& effect, const std::string& kind) {
     return std::any_of(effect.roles.begin(), effect.roles.end(), [&](const auto& role) { return role.second == kind; });
 }
@@ -68,7 +75,14 @@ Places places_of(const Substitution& s, const model::Model& model) {
     const model::Equation& e = model.equations[s.equation];
     if (s.what[0] == '(') {
         const std::size_t minus = s.what.find('-');
-        return {places_of_difference(e, s.what.substr(1, minus - 1), s.what.substr(minus + 1, s.what.size() - minus - 2)), {}};
+        const std::string a = s.what.substr(1, minus - 1);
+        const std::string b = s.what.substr(minus + 1, s.what.size() - minus - 2);
+        Places out{places_of_difference(e, a, b), places_of_difference_of_rates(e, a, b)};
+        const std::string rate_of_a = rate_of(model, a);
+        const std::string rate_of_b = rate_of(model, b);
+        if (rate_of_a.empty() || rate_of_b.empty()) return out;
+        for (const Stretch& at : places_of_difference(e, rate_of_a, rate_of_b)) out.derivatives.push_back(at);
+        return out;
     }
     Places out{places_of_name(e, s.what), {}};
     const bool is_signal = model.signal_index(s.what) >= 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "lab/judge.hpp"
@@ -18,6 +19,7 @@ namespace algest::lab {
 namespace {
 
 constexpr double confirming_tolerance = 1e-8;
+constexpr double rows_that_see = 2.0;   ///< residual of the nominal model over noise, from which on rows may overrule a long run
 
 std::vector<NamedParameter> parameters(const Variant& v) {
     std::vector<NamedParameter> out;
@@ -86,32 +88,69 @@ Selection search(Workbench& bench, Variant& nominal, const std::vector<double>& 
     return select_effects(bench, nominal, effects, progress);
 }
 
-/// The test rows, once: before and after.
-void confirm(const Workbench& bench, const Variant& nominal, const Variant* amended, Discovery& out) {
-    out.before = bench.run(nominal, confirming_tolerance);
-    out.after = amended != nullptr ? bench.run(*amended, confirming_tolerance) : out.before;
-    const std::vector<double> noise = noise_by_signal(nominal.model, nominal.bench);
-    const Rows test = bench.parts().test;
-    const auto error = [&](const FreeRun& run, std::size_t s) {
-        const std::vector<double>& measured = nominal.bench.measured[s];
-        double squares = 0;
-        for (std::size_t row = test.begin; row < test.end; ++row) {
-            const double miss = row < run.samples ? measured[row] - run.signals[s][row] : error_of_divergence * size_of(measured);
-            squares += miss * miss;
-        }
-        return std::sqrt(squares / static_cast<double>(test.size())) / size_of(measured);
-    };
-    for (const int output : scored_outputs(nominal.model, nominal.bench)) {
-        const std::size_t s = static_cast<std::size_t>(output);
-        out.outputs.push_back({nominal.model.signals[s].name, error(out.before, s), error(out.after, s), noise[s] / size_of(nominal.bench.measured[s])});
+/// nrmse of a run over the test rows, a run that diverged counting as far off.
+double test_error(const FreeRun& run, const std::vector<double>& measured, std::size_t s, Rows test) {
+    double squares = 0;
+    for (std::size_t row = test.begin; row < test.end; ++row) {
+        const double miss = row < run.samples ? measured[row] - run.signals[s][row] : error_of_divergence * size_of(measured);
+        squares += miss * miss;
     }
+    return std::sqrt(squares / static_cast<double>(test.size())) / size_of(measured);
+}
+
+/// The test rows of every recording, once: before and after.
+std::vector<RecordingEvidence> confirmed(const Workbench& bench, const Variant& nominal, const Variant* amended) {
+    std::vector<RecordingEvidence> all;
+    for (std::size_t k = 0; k < bench.recordings(); ++k) {
+        const Bench& own = bench_of(nominal, k);
+        const Parts& parts = bench.parts(k);
+        const std::vector<double>& t = bench.recording(k).t;
+        RecordingEvidence out{bench.recording(k).file, {}, 0, bench.run(nominal, confirming_tolerance, k), {},
+                              t[parts.train.begin], t[parts.train.end - 1], t[parts.test.begin], t[parts.test.end - 1]};
+        out.after = amended != nullptr ? bench.run(*amended, confirming_tolerance, k) : out.before;
+        if (amended != nullptr) out.gain = log_gain(amended->score, nominal.score, k);
+        const std::vector<double> noise = noise_by_signal(nominal.model, own);
+        for (const int output : scored_outputs(nominal.model, own)) {
+            const std::size_t s = static_cast<std::size_t>(output);
+            const std::vector<double>& measured = own.measured[s];
+            out.outputs.push_back({nominal.model.signals[s].name, test_error(out.before, measured, s, parts.test), test_error(out.after, measured, s, parts.test), noise[s] / size_of(measured)});
+        }
+        all.push_back(std::move(out));
+    }
+    return all;
 }
 
 /// True when the amended model is nearer on the test rows: the mean logarithm of the errors' ratio.
-bool nearer(const std::vector<OutputGap>& outputs) {
+bool nearer(const std::vector<RecordingEvidence>& recordings) {
     double gain = 0;
-    for (const OutputGap& o : outputs) gain += std::log(std::max(o.before, 1e-300) / std::max(o.after, 1e-300));
+    for (const RecordingEvidence& r : recordings) for (const OutputGap& o : r.outputs) gain += std::log(std::max(o.before, 1e-300) / std::max(o.after, 1e-300));
     return gain > 0;
+}
+
+/// Takes back what was named.
+void refute(Discovery& out) {
+    out.verdict = Verdict::unknown;
+    out.doubts = {fmt::format("{} explained the training stretch and made the test stretch worse: nothing is added", out.effects.back().name)};
+    out.effects.clear();
+    out.alternatives.clear();
+    out.experiments.clear();
+    for (RecordingEvidence& r : out.recordings) {
+        r.after = r.before;
+        r.gain = 0;
+        for (OutputGap& o : r.outputs) o.after = o.before;
+    }
+}
+
+/// The bench of all recordings; nullptr after an error.
+std::unique_ptr<Workbench> workbench(const std::string& model_path, const std::vector<Recording>& recordings, const DiscoverOptions& options, Diagnostics& diagnostics) {
+    std::unique_ptr<Workbench> out;
+    for (const Recording& recording : recordings) {
+        const auto parts = parts_of(recording, options.train_s, options.test_s, diagnostics);
+        if (!parts) return nullptr;
+        if (out == nullptr) out = std::make_unique<Workbench>(model_path, recording, *parts);
+        else out->add_recording(recording, *parts);
+    }
+    return out;
 }
 
 }  // namespace
@@ -126,11 +165,11 @@ const char* name(Verdict verdict) {
     return "?";
 }
 
-std::optional<Discovery> discover(const std::string& model_text, const std::string& model_path, const Recording& recording, const std::vector<Effect>& effects,
+std::optional<Discovery> discover(const std::string& model_text, const std::string& model_path, const std::vector<Recording>& recordings, const std::vector<Effect>& effects,
                                   const DiscoverOptions& options, Diagnostics& diagnostics, const StepReport& progress) {
-    const auto parts = parts_of(recording, options.train_s, options.test_s, diagnostics);
-    if (!parts) return std::nullopt;
-    Workbench bench(model_path, recording, *parts);
+    const auto of_all = workbench(model_path, recordings, options, diagnostics);
+    if (of_all == nullptr) return std::nullopt;
+    Workbench& bench = *of_all;
     auto nominal = bench.prepare(model_text, {}, diagnostics);
     if (!nominal) return std::nullopt;
     const auto declared = parameter_values(nominal->model, {}, diagnostics);
@@ -145,8 +184,8 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
         bench.measure_by(Yardstick::rows);
         Selection second = search(bench, by_rows, *declared, effects, progress);
         const Verdict verdict = judge(bench, by_rows, second);
-        // Rows at the level of the noise see nothing of what is left: then the long run, which adds it up, knows better.
-        if (names_something(verdict) && second.best.score.gap() > far_from_the_floor) {
+        // Rows at the level of the noise, before as after, see nothing: then the long run, which adds it up, knows better.
+        if (names_something(verdict) && by_rows.score.gap() > rows_that_see) {
             selection = std::move(second);
             *nominal = std::move(by_rows);
             out.verdict = verdict;
@@ -158,35 +197,26 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     if (progress) progress("confirm", 0.9);
     bench.refine(*nominal);
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
-    out.evidence = std::move(selection.evidence);
     out.doubts = doubts(bench, *nominal, selection, out.verdict);
     bool stands = names_something(out.verdict);
+    out.evidence = std::move(selection.evidence);
+    if (!stands) for (Evidence& e : out.evidence) e.chosen = e.rival = false;   // tried, and not enough
     const Variant* amended = stands ? &selection.best : nullptr;
     if (stands) for (const Amendment& a : selection.best.amendments) out.effects.push_back(named(selection.best, a, effects));
     if (out.verdict == Verdict::ambiguous) tell_apart(selection, effects, out);
-    confirm(bench, *nominal, amended, out);
-    if (amended != nullptr && bench.yardstick() == Yardstick::free_run && !nearer(out.outputs)) {
+    out.recordings = confirmed(bench, *nominal, amended);
+    if (amended != nullptr && bench.yardstick() == Yardstick::free_run && !nearer(out.recordings)) {
         // What the training stretch liked, the test stretch refutes.
         amended = nullptr;
         stands = false;
-        out.verdict = Verdict::unknown;
-        out.effects.clear();
-        out.alternatives.clear();
-        out.experiments.clear();
-        out.doubts = {fmt::format("{} explained the training stretch and made the test stretch worse: nothing is added", selection.best.amendments.back().effect)};
-        out.after = out.before;
-        for (OutputGap& o : out.outputs) o.after = o.before;
+        refute(out);
     }
-    if (amended != nullptr && !nearer(out.outputs)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
+    if (amended != nullptr && !nearer(out.recordings)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
     out.residuals = residuals(bench, *nominal, amended);
-    out.where = locate(bench, *nominal, out.residuals, out.before);
+    out.where = locate(bench, *nominal, out.residuals, out.recordings[0].before);
     out.parameters_before = parameters(*nominal);
     if (stands) out.parameters_after = parameters(selection.best);
     out.model_text = stands ? text_with_fitted_values(*nominal, selection.best) : model_text;
-    out.train_from_s = recording.t[parts->train.begin];
-    out.train_to_s = recording.t[parts->train.end - 1];
-    out.test_from_s = recording.t[parts->test.begin];
-    out.test_to_s = recording.t[parts->test.end - 1];
     return out;
 }
 

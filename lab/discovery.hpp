@@ -74,7 +74,18 @@ struct EquationResidual {
     std::vector<double> law;          ///< by window: what the added terms say; empty where none enters this equation
 };
 
-/// What was found, and what a reader needs to believe or doubt it.
+/// What one recording says of it.
+struct RecordingEvidence {
+    std::string file;
+    std::vector<OutputGap> outputs;
+    double gain;                                          ///< of the amended model over the nominal one on its validation rows, as Evidence's improvement; 0: nothing named
+    FreeRun before;                                       ///< over the whole recording, by the model's signals
+    FreeRun after;
+    double train_from_s, train_to_s, test_from_s, test_to_s;
+};
+
+/// What was found, and what a reader needs to believe or doubt it. One fit and one verdict over all recordings; where, residuals and the
+/// report's figures are those of the first one.
 struct Discovery {
     Verdict verdict;
     std::vector<NamedEffect> effects;
@@ -82,15 +93,14 @@ struct Discovery {
     std::vector<std::string> experiments;                 ///< that would tell them apart
     std::vector<std::string> doubts;                      ///< a sentence each: what a reader should not take for granted
     std::vector<Where> where;
-    std::vector<OutputGap> outputs;
     std::vector<Evidence> evidence;
     std::vector<EquationResidual> residuals;
     std::vector<NamedParameter> parameters_before;        ///< of the refitted nominal model
     std::vector<NamedParameter> parameters_after;         ///< of the amended one, what the effects bring included
     std::string model_text;                               ///< amended, with the fitted values as initial ones
-    FreeRun before;                                       ///< over the whole recording, by the model's signals
-    FreeRun after;
-    double train_from_s, train_to_s, test_from_s, test_to_s;
+    std::vector<RecordingEvidence> recordings;            ///< in the order given, one at least
+
+    const RecordingEvidence& first() const { return recordings.front(); }
 };
 
 }  // namespace algest::lab

@@ -34,7 +34,7 @@ Plain without_braces(const std::string& text) {
     return out;
 }
 
-bool may_stand_alone(const std::string& text) { return std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}'); }
+bool braces_pair(const std::string& text) { return std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}'); }
 
 }  // namespace
 
@@ -113,7 +113,7 @@ void EditReading::check_formula(const std::string& text, const toml::node& node)
     const auto complain = [&](int offset, const std::string& what, const std::string& right) {
         file.error(places[plain.from[std::min(static_cast<std::size_t>(std::max(offset, 0)), plain.from.size() - 1)]], what, right);
     };
-    if (!may_stand_alone(text)) return complain(0, "'{' and '}' do not pair", "a placeholder is written {speed}");
+    if (!braces_pair(text)) return file.error(node, "'{' and '}' do not pair", "a placeholder is written {speed}");
     std::vector<Formula> sides;
     if (text.find('=') == std::string::npos) {
         if (const auto parsed = formula::parse(plain.text, complain)) sides = {*parsed};

@@ -63,7 +63,8 @@ private:
     }
 
     bool needs_a_parameter(const toml::table& root) const {
-        return effect_.rewrite == Rewrite::add_term || (effect_.rewrite != Rewrite::free_constant && !root.contains("scan"));
+        const bool bends = effect_.rewrite == Rewrite::replace || effect_.rewrite == Rewrite::transform_signal;
+        return effect_.rewrite == Rewrite::add_term || (bends && !root.contains("scan"));
     }
 
     /// A term has the unit of an equation; what else is done to an equation does not hang on it.

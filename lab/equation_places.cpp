@@ -110,6 +110,18 @@ std::vector<Stretch> places_of_difference(const model::Equation& e, const std::s
     return out;
 }
 
+std::vector<Stretch> places_of_difference_of_rates(const model::Equation& e, const std::string& a, const std::string& b) {
+    std::vector<Stretch> out;
+    const auto is_rate = [](const Formula& f, const std::string& x) { return is_derivative(f) && order_of_derivative(f) == 1 && f->start == f->offset && f->arguments[0]->name == x; };
+    each_outside(e, [&](const Formula& f) {
+        if (f->kind != Kind::subtract) return;
+        const Formula& left = f->arguments[0];
+        const Formula& right = f->arguments[1];
+        if ((is_rate(left, a) && is_rate(right, b)) || (is_rate(left, b) && is_rate(right, a))) out.push_back({stretch_of_call(left, e.ode).begin, stretch_of_call(right, e.ode).end});
+    });
+    return out;
+}
+
 std::vector<Stretch> place_of_leading(const model::Model& model, const model::Equation& e) {
     const Moved own = moved(model, e);
     std::vector<Stretch> out;

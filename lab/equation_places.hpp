@@ -24,6 +24,9 @@ std::vector<Stretch> places_of_derivative(const model::Equation& equation, const
 /// Every difference  a - b  or  b - a  of two signals.
 std::vector<Stretch> places_of_difference(const model::Equation& equation, const std::string& a, const std::string& b);
 
+/// Every difference  der(a) - der(b)  or  der(b) - der(a).
+std::vector<Stretch> places_of_difference_of_rates(const model::Equation& equation, const std::string& a, const std::string& b);
+
 /// The place of the one parameter or constant that multiplies the highest derivative which the equation moves; empty: there is none, or
 /// more than one.
 std::vector<Stretch> place_of_leading(const model::Model& model, const model::Equation& equation);

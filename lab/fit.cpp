@@ -7,43 +7,76 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace algest::lab {
 
 namespace {
 
-/// What the optimiser moves: scaled free parameters, then scaled initial values of measured states.
+/// An initial value that the optimiser moves: of which run, and which state entry.
+struct StartEntry {
+    std::size_t run;
+    std::size_t entry;
+};
+
+/// What the optimiser moves: scaled free parameters, then scaled initial values.
 struct Variables {
     std::vector<std::size_t> parameters;
-    std::vector<std::size_t> entries;
+    std::vector<StartEntry> entries;
     std::vector<double> scale;   ///< of both in turn
     std::size_t size() const { return parameters.size() + entries.size(); }
 };
 
+/// The fit's own run, then the further ones.
+std::vector<FurtherRun> all_runs(const Bench& bench, const FitStart& start) {
+    std::vector<FurtherRun> out = {{&bench, start.initial, start.rows}};
+    out.insert(out.end(), start.further.begin(), start.further.end());
+    return out;
+}
+
+std::size_t kept_rows(const FurtherRun& run) { return (run.rows.size() + run.bench->options.stride - 1) / run.bench->options.stride; }
+
 class FreeRunError : public ceres::CostFunction {
 public:
     FreeRunError(const model::Model& model, const Bench& bench, const FitStart& start, Variables variables)
-        : bench_(bench), start_(start), variables_(std::move(variables)), outputs_(scored_outputs(model, bench)) {
-        count_ = (start.rows.size() + bench.options.stride - 1) / bench.options.stride;
-        for (const int s : outputs_) sizes_.push_back(size_of(bench.measured[static_cast<std::size_t>(s)]));
-        set_num_residuals(static_cast<int>(outputs_.size() * count_));
+        : runs_(all_runs(bench, start)), parameters_(start.parameters), variables_(std::move(variables)) {
+        for (const FurtherRun& run : runs_) {
+            for (const int s : scored_outputs(model, *run.bench)) {
+                blocks_.push_back({static_cast<std::size_t>(&run - runs_.data()), static_cast<std::size_t>(s), kept_rows(run)});
+                double& size = sizes_[s];
+                size = std::max(size, size_of(run.bench->measured[static_cast<std::size_t>(s)]));
+            }
+            rows_ += kept_rows(run);
+        }
+        std::size_t residuals = 0;
+        for (const Block& block : blocks_) residuals += block.rows;
+        set_num_residuals(static_cast<int>(residuals));
         mutable_parameter_block_sizes()->push_back(static_cast<int>(variables_.size()));
     }
 
+    /// One output of one run; the residuals are block by block.
+    struct Block {
+        std::size_t run;
+        std::size_t signal;
+        std::size_t rows;
+    };
+
     /// Residuals in units of size / sqrt(rows): their squares sum to the sum of nrmse^2.
     void residuals(const double* x, double* out) const {
-        std::vector<double> parameters = start_.parameters;
-        std::vector<double> initial = start_.initial;
+        std::vector<double> parameters = parameters_;
+        std::vector<std::vector<double>> initial;
+        for (const FurtherRun& run : runs_) initial.push_back(run.initial);
         spread(x, parameters, initial);
-        const auto run = prediction(bench_, parameters, initial, start_.rows);
-        ++runs;
-        const double scale = 1.0 / std::sqrt(static_cast<double>(count_));
-        std::size_t k = 0;
-        for (std::size_t o = 0; o < outputs_.size(); ++o) {
-            const std::size_t s = static_cast<std::size_t>(outputs_[o]);
-            for (std::size_t row = 0; row < count_; ++row, ++k) {
-                const double miss = (bench_.measured[s][start_.rows.begin + row * bench_.options.stride] - run[s][row]) / sizes_[o];
-                out[k] = scale * (std::isfinite(miss) ? std::clamp(miss, -error_of_divergence, error_of_divergence) : error_of_divergence);
+        const double scale = 1.0 / std::sqrt(static_cast<double>(rows_));
+        std::vector<std::vector<std::vector<double>>> simulated;
+        for (std::size_t r = 0; r < runs_.size(); ++r) simulated.push_back(prediction(*runs_[r].bench, parameters, initial[r], runs_[r].rows));
+        runs += static_cast<int>(runs_.size());
+        for (const Block& block : blocks_) {
+            const FurtherRun& run = runs_[block.run];
+            const double size = sizes_.at(static_cast<int>(block.signal));
+            for (std::size_t row = 0; row < block.rows; ++row) {
+                const double miss = (run.bench->measured[block.signal][run.rows.begin + row * run.bench->options.stride] - simulated[block.run][block.signal][row]) / size;
+                *out++ = scale * (std::isfinite(miss) ? std::clamp(miss, -error_of_divergence, error_of_divergence) : error_of_divergence);
             }
         }
     }
@@ -65,23 +98,23 @@ public:
         return true;
     }
 
-    void spread(const double* x, std::vector<double>& parameters, std::vector<double>& initial) const {
+    /// initial: by run.
+    void spread(const double* x, std::vector<double>& parameters, std::vector<std::vector<double>>& initial) const {
         std::size_t k = 0;
         for (const std::size_t p : variables_.parameters) { parameters[p] = x[k] * variables_.scale[k]; ++k; }
-        for (const std::size_t e : variables_.entries) { initial[e] = x[k] * variables_.scale[k]; ++k; }
+        for (const StartEntry& e : variables_.entries) { initial[e.run][e.entry] = x[k] * variables_.scale[k]; ++k; }
     }
 
-    const std::vector<int>& outputs() const { return outputs_; }
-    std::size_t count() const { return count_; }
+    const std::vector<Block>& blocks() const { return blocks_; }
     mutable int runs = 0;
 
 private:
-    const Bench& bench_;
-    const FitStart& start_;
+    std::vector<FurtherRun> runs_;
+    std::vector<double> parameters_;
     Variables variables_;
-    std::vector<int> outputs_;
-    std::vector<double> sizes_;
-    std::size_t count_;   ///< rows that are compared
+    std::vector<Block> blocks_;
+    std::map<int, double> sizes_;   ///< by signal: the largest of all recordings
+    std::size_t rows_ = 0;          ///< rows that are compared, of all runs
 };
 
 /// Ends a fit, with the best it has, once the effort that it shares is used up.
@@ -96,6 +129,28 @@ private:
     const Effort* effort_;
 };
 
+/// Standard deviations of a least squares from its normal equations; infinite for what lies in a direction that no row sees. Slopes are
+/// differences, good to three digits: columns more alike than that are not told apart.
+Eigen::VectorXd deviations_of(const Eigen::MatrixXd& normal) {
+    constexpr double digits_of_a_slope = 1e-3;
+    constexpr double part = 1e-2;   // of a unit vector, by which a parameter lies in a direction
+    const double infinity = std::numeric_limits<double>::infinity();
+    const Eigen::VectorXd size = normal.diagonal().cwiseSqrt();
+    const Eigen::VectorXd inverse = size.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * normal * inverse.asDiagonal());
+    Eigen::VectorXd out(normal.rows());
+    for (Eigen::Index i = 0; i < normal.rows(); ++i) {
+        double variance = 0;
+        for (Eigen::Index d = 0; d < normal.rows(); ++d) {
+            const double share = std::pow(solver.eigenvectors()(i, d), 2);
+            if (solver.eigenvalues()[d] > digits_of_a_slope * digits_of_a_slope) variance += share / solver.eigenvalues()[d];
+            else if (share > part * part) variance = infinity;
+        }
+        out[i] = size[i] > 0 ? std::sqrt(variance) * inverse[i] : infinity;
+    }
+    return out;
+}
+
 Variables choose_variables(const model::Model& model, const Bench& bench, const FitStart& start) {
     Variables out;
     for (std::size_t p = 0; p < model.parameters.size(); ++p) {
@@ -104,20 +159,22 @@ Variables choose_variables(const model::Model& model, const Bench& bench, const 
         const double range = model.parameters[p].max ? 1e-3 * exact::nearest(cln::abs(*model.parameters[p].max), plan::Scalar::float64) : 1e-3;
         out.scale.push_back(start.parameters[p] != 0 ? std::abs(start.parameters[p]) : range);
     }
-    for (std::size_t e = 0; e < bench.system.states.size(); ++e) {
-        if (bench.measured[static_cast<std::size_t>(bench.system.states[e].signal)].empty()) continue;
-        out.entries.push_back(e);
-        out.scale.push_back(bench.options.scale[e]);
+    const std::vector<FurtherRun> runs = all_runs(bench, start);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        for (std::size_t e = 0; e < runs[r].bench->system.states.size(); ++e) {
+            out.entries.push_back({r, e});
+            out.scale.push_back(runs[r].bench->options.scale[e]);
+        }
     }
     return out;
 }
 
-std::vector<double> scaled_start(const FitStart& start, const Variables& variables) {
+std::vector<double> scaled_start(const Bench& bench, const FitStart& start, const Variables& variables) {
+    const std::vector<FurtherRun> runs = all_runs(bench, start);
     std::vector<double> x;
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-        const double value = k < variables.parameters.size() ? start.parameters[variables.parameters[k]] : start.initial[variables.entries[k - variables.parameters.size()]];
-        x.push_back(value / variables.scale[k]);
-    }
+    for (const std::size_t p : variables.parameters) x.push_back(start.parameters[p]);
+    for (const StartEntry& e : variables.entries) x.push_back(runs[e.run].initial[e.entry]);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] /= variables.scale[k];
     return x;
 }
 
@@ -125,7 +182,7 @@ std::vector<double> scaled_start(const FitStart& start, const Variables& variabl
 
 std::vector<int> scored_outputs(const model::Model& model, const Bench& bench) {
     std::vector<int> out;
-    for (const int s : bench.system.moving) {
+    for (const int s : simulated_signals(bench.system)) {
         if (!bench.measured[static_cast<std::size_t>(s)].empty() && model.signals[static_cast<std::size_t>(s)].scored) out.push_back(s);
     }
     return out;
@@ -172,7 +229,7 @@ double output_error(const model::Model& model, const Bench& bench, const FitStar
 Eigen::MatrixXd output_slopes(const model::Model& model, const Bench& bench, const FitStart& at) {
     const Variables variables = choose_variables(model, bench, at);
     const FreeRunError error(model, bench, at, variables);
-    const std::vector<double> x = scaled_start(at, variables);
+    const std::vector<double> x = scaled_start(bench, at, variables);
     std::vector<double> residual(static_cast<std::size_t>(error.num_residuals()));
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> slopes(error.num_residuals(), static_cast<Eigen::Index>(variables.size()));
     const double* block = x.data();
@@ -183,8 +240,9 @@ Eigen::MatrixXd output_slopes(const model::Model& model, const Bench& bench, con
 
 Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     const Variables variables = choose_variables(model, bench, start);
-    std::vector<double> x = scaled_start(start, variables);
-    if (x.empty()) return {start.parameters, {}, start.initial, output_error(model, bench, start), true, 1};
+    std::vector<double> x = scaled_start(bench, start, variables);
+    std::vector<std::vector<double>> initial;
+    for (const FurtherRun& run : all_runs(bench, start)) initial.push_back(run.initial);
     auto* cost = new FreeRunError(model, bench, start, variables);   // the problem owns it
     ceres::Problem problem;
     problem.AddResidualBlock(cost, nullptr, x.data());
@@ -208,8 +266,10 @@ Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
 
-    Fit out{start.parameters, std::vector<double>(start.parameters.size(), std::numeric_limits<double>::infinity()), start.initial, 0, summary.termination_type == ceres::CONVERGENCE, 0};
-    cost->spread(x.data(), out.parameters, out.initial);
+    Fit out{start.parameters, std::vector<double>(start.parameters.size(), std::numeric_limits<double>::infinity()), {}, 0, summary.termination_type == ceres::CONVERGENCE, 0};
+    cost->spread(x.data(), out.parameters, initial);
+    out.initial = initial[0];
+    out.further_initial.assign(initial.begin() + 1, initial.end());
     const std::size_t count = static_cast<std::size_t>(cost->num_residuals());
     std::vector<double> residuals(count);
     std::vector<double> jacobian(count * variables.size());
@@ -217,23 +277,21 @@ Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     double* columns = jacobian.data();
     cost->Evaluate(&block, residuals.data(), &columns);
     // Each output has its own noise: rows are divided by it before the normal equations.
-    const std::size_t rows = cost->count();
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(variables.size()), static_cast<Eigen::Index>(variables.size()));
-    for (std::size_t o = 0; o < cost->outputs().size(); ++o) {
-        const double* r = residuals.data() + o * rows;
+    const double outputs = static_cast<double>(scored_outputs(model, bench).size());
+    std::size_t at = 0;
+    for (const FreeRunError::Block& of : cost->blocks()) {
+        const double* r = residuals.data() + at;
         double squares = 0;
-        for (std::size_t k = 0; k < rows; ++k) squares += r[k] * r[k];
-        out.cost += squares / static_cast<double>(cost->outputs().size());
-        const double variance = squares / static_cast<double>(rows) * rows_that_count_as_one(r, rows);
-        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> part(jacobian.data() + o * rows * variables.size(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(variables.size()));
+        for (std::size_t k = 0; k < of.rows; ++k) squares += r[k] * r[k];
+        out.cost += squares / outputs;
+        const double variance = squares / static_cast<double>(of.rows) * rows_that_count_as_one(r, of.rows);
+        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> part(jacobian.data() + at * variables.size(), static_cast<Eigen::Index>(of.rows), static_cast<Eigen::Index>(variables.size()));
         if (variance > 0) normal += part.transpose() * part / variance;
+        at += of.rows;
     }
-    const Eigen::MatrixXd covariance = normal.completeOrthogonalDecomposition().pseudoInverse();
-    const Eigen::VectorXd seen = (normal * covariance).diagonal();
-    for (std::size_t k = 0; k < variables.parameters.size(); ++k) {
-        const auto i = static_cast<Eigen::Index>(k);
-        if (seen[i] > 0.999) out.sd[variables.parameters[k]] = std::sqrt(std::max(covariance(i, i), 0.0)) * variables.scale[k];
-    }
+    const Eigen::VectorXd deviations = deviations_of(normal);
+    for (std::size_t k = 0; k < variables.parameters.size(); ++k) out.sd[variables.parameters[k]] = deviations[static_cast<Eigen::Index>(k)] * variables.scale[k];
     out.runs = cost->runs;
     return out;
 }

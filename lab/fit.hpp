@@ -19,6 +19,13 @@ struct Rows {
 /// Error, in sizes of the measured signal, that counts for a run that has diverged, and the most that counts at all.
 constexpr double error_of_divergence = 1e3;
 
+/// A stretch of another recording of the same machine: the same parameters, an initial state of its own.
+struct FurtherRun {
+    const Bench* bench;               ///< of the same model; outlives the fit
+    std::vector<double> initial;      ///< by state entry
+    Rows rows;
+};
+
 /// What a fit starts from and looks at.
 struct FitStart {
     std::vector<double> parameters;   ///< by the model's parameters
@@ -27,6 +34,7 @@ struct FitStart {
     Rows rows;                        ///< scored; the run starts at rows.begin
     int most_iterations = 25;
     double tolerance = 1e-7;          ///< relative change of the cost at which it stops
+    std::vector<FurtherRun> further = {};
 };
 
 /// What came of it.
@@ -37,9 +45,10 @@ struct Fit {
     double cost;                      ///< mean over outputs of nrmse^2 over the rows
     bool converged;
     int runs;                         ///< free runs it took
+    std::vector<std::vector<double>> further_initial = {};   ///< by further run
 };
 
-/// The moving signals that a fit compares: measured and scored, in the order of the system.
+/// The simulated signals that a fit compares: measured and scored, in the order of the system.
 std::vector<int> scored_outputs(const model::Model& model, const Bench& bench);
 
 /// The run over the rows from an initial state, every `stride` of the bench, by the model's signals; NaN from where it diverged on.
@@ -51,7 +60,8 @@ double rows_that_count_as_one(const double* residual, std::size_t rows);
 /// Mean over outputs of the squared error over (size of the measured signal)^2.
 double output_error(const model::Model& model, const Bench& bench, const FitStart& at);
 
-/// The error of every scored output at every row, each over (size of its signal * sqrt(rows)): squares sum to the sum of nrmse^2.
+/// The error of every scored output at every row, each over (size of its signal * sqrt(rows)): squares sum to the sum of nrmse^2. With
+/// further runs the sizes are the largest of all recordings and the rows are all their rows; they follow one another.
 std::vector<double> output_residual(const model::Model& model, const Bench& bench, const FitStart& at);
 
 /// Its slope by what a fit at this start would move, a column each, in units of the start's own size of it.

@@ -30,6 +30,7 @@ public:
           values_(system.residual.operations.size()), results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
           mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())),
           residual_(static_cast<Eigen::Index>(system.moving.size())), slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
+        recorded_ = simulated_signals(system);
         set_delays(parameters);
         for (std::size_t p = 0; p < parameters.size(); ++p) inputs_[static_cast<std::size_t>(system.parameter_input) + p] = parameters[p];
         for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
@@ -50,10 +51,11 @@ public:
             since_ = 0.0;
             set_driven(0.0);
             set_past();
-            apply_laws();
+            const bool finite = apply_outputs_and_laws();
+            if (!finite && out_.samples > 0) break;
             record();
             ++out_.samples;
-            if (k + options_.stride >= end) break;
+            if (!finite || k + options_.stride >= end) break;
             choose_modes(x, 0.0);
             keep_slopes_ahead(x);
             if (!advance(x)) break;
@@ -146,18 +148,34 @@ private:
         }
     }
 
-    void apply_laws() {
-        for (const Law& law : system_.laws) {
-            std::vector<double> values(law.tape.operations.size());
-            double result = 0;
-            plan::evaluate<double>(law.tape, inputs_.data(), nullptr, nullptr, values.data(), &result);
-            inputs_[static_cast<std::size_t>(law.signal)] = result;
+    double result_of(const plan::Tape& tape) const {
+        std::vector<double> values(tape.operations.size());
+        double result = 0;
+        plan::evaluate<double>(tape, inputs_.data(), nullptr, nullptr, values.data(), &result);
+        return result;
+    }
+
+    /// False where a sensor shows no number; it is 0 then.
+    bool apply_outputs() {
+        bool finite = true;
+        for (const Output& output : system_.outputs) {
+            const double shown = result_of(output.tape);
+            inputs_[static_cast<std::size_t>(output.signal)] = std::isfinite(shown) ? shown : 0.0;
+            finite = finite && std::isfinite(shown);
         }
+        return finite;
+    }
+
+    /// Laws see what the sensors show; what a sensor shows of a law's signal is that of this sample.
+    bool apply_outputs_and_laws() {
+        const bool finite = apply_outputs();
+        for (const Law& law : system_.laws) inputs_[static_cast<std::size_t>(law.signal)] = result_of(law.tape);
+        return system_.laws.empty() ? finite : apply_outputs() && finite;
     }
 
     void record() {
         const auto keep = [&](int signal) { out_.signals[static_cast<std::size_t>(signal)].push_back(inputs_[static_cast<std::size_t>(signal)]); };
-        for (const int s : system_.moving) keep(s);
+        for (const int s : recorded_) keep(s);
         for (const Law& law : system_.laws) keep(law.signal);
     }
 
@@ -423,6 +441,7 @@ private:
     std::vector<std::size_t> entry_input_;
     std::vector<double> scale_;
     std::vector<double> argument_scale_;
+    std::vector<int> recorded_;          ///< signals that are kept, beside those of laws
     std::vector<SamplesAgo> ago_;        ///< by delayed signal
     std::vector<double> breaks_;         ///< s into a span
     std::vector<MovingPast> past_;       ///< by delayed signal; empty for those that do not move

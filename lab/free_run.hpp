@@ -18,10 +18,10 @@ struct Drive {
     std::vector<bool> held;                       ///< by signal: constant between samples, else linear
 };
 
-/// Every moving and every fed-back signal at every kept sample from the first on, by the model's signals; empty for the others.
+/// Every moving, every fed-back and every output signal at every kept sample from the first on, by the model's signals; empty for the others.
 struct FreeRun {
     std::vector<std::vector<double>> signals;
-    std::size_t samples;                          ///< computed; fewer than asked for where the run diverged
+    std::size_t samples;                          ///< computed, one at least; fewer than asked for where the run diverged, or a sensor showed no number
 };
 
 /// Work of all runs that share it, in operations of their tapes: counted, not timed, so that the same search ends at the same place on

@@ -9,6 +9,7 @@
 
 #include "algest/arithmetic.hpp"
 #include "algest/boxcar.hpp"
+#include "algest/delay_line.hpp"
 #include "algest/estimator.hpp"
 #include "algest/parabola_filter.hpp"
 #include "generator/blueprint.hpp"
@@ -26,6 +27,11 @@ public:
         : plan_(&plan),
           blueprint_(plan::make_blueprint<S>(plan)),
           delayed_(plan.delayed()),
+          lines_of_(plan.delayed_inputs()),
+          delay_length_(plan.delay_length()),
+          lines_(lines_of_.size() * size(delay_length_)),
+          newest_(lines_of_.size()),
+          all_inputs_(plan.inputs.size() + plan.past.size()),
           rings_(size(ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
           sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
           published_(size(published_scalars(blueprint_.solve, blueprint_.unknowns))),
@@ -62,6 +68,7 @@ public:
         algest::reset(blueprint_.view(), memory());
         run_ = 0;
         block_ = {};
+        delay_ = {};
         status_ = Status::filling;
         condition_ = std::numeric_limits<S>::infinity();
         for (std::size_t k = 0; k < parameters_.size(); ++k) parameters_[k] = static_cast<S>(plan_->parameters[k].initial);
@@ -71,6 +78,7 @@ public:
     /// Cost: that of the runtime's push, and one operation per entry of the signals' tape.
     void push(const S* inputs) {
         if (!acceptable(inputs)) return refuse();
+        if (!plan_->past.empty() && !look_back(inputs)) return algest::prime(memory());
         if (delayed_) {
             if (run_ == 0) {
                 remember(inputs);
@@ -80,7 +88,7 @@ public:
             differentiate(inputs);
             run_ = 2;
         }
-        plan::evaluate(plan_->signals, inputs, previous_.data(), derivatives_.data(), signal_values_.data(),
+        plan::evaluate(plan_->signals, plan_->past.empty() ? inputs : all_inputs_.data(), previous_.data(), derivatives_.data(), signal_values_.data(),
                        signals_.data());
         if (!all_finite(signals_.data(), static_cast<int>(plan_->window_signals.size()))) return refuse();
         if (delayed_) remember(inputs);
@@ -151,6 +159,19 @@ private:
         return true;
     }
 
+    /// Sets all_inputs_ to the inputs and their past, and keeps the inputs; false until the lines are full.
+    bool look_back(const S* inputs) {
+        for (std::size_t i = 0; i < lines_of_.size(); ++i) newest_[i] = inputs[lines_of_[i]];
+        const bool full = delay_.filled == delay_length_;
+        for (std::size_t i = 0; i < plan_->inputs.size(); ++i) all_inputs_[i] = inputs[i];
+        for (std::size_t k = 0; full && k < plan_->past.size(); ++k) {
+            const std::size_t line = size(static_cast<int>(std::find(lines_of_.begin(), lines_of_.end(), plan_->past[k].input) - lines_of_.begin()));
+            all_inputs_[plan_->inputs.size() + k] = past_sample(lines_.data() + line * size(delay_length_), delay_length_, delay_, plan_->past[k].samples);
+        }
+        keep_samples(lines_.data(), static_cast<int>(lines_of_.size()), delay_length_, delay_, newest_.data());
+        return full;
+    }
+
     /// Moves the parabola filters by one sample; they then stand at the sample before the newest.
     void differentiate(const S* inputs) {
         for (std::size_t i = 0; i < filters_.size(); ++i) {
@@ -173,6 +194,7 @@ private:
         algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
         run_ = 0;
         block_ = {};
+        delay_ = {};
     }
 
     /// Lumped -> parameters; false, and the parameters as they were, if one is not finite.
@@ -186,6 +208,12 @@ private:
     const plan::Plan* plan_;
     plan::BlueprintData<S> blueprint_;
     bool delayed_;
+    std::vector<int> lines_of_;    ///< inputs that have a delay line
+    int delay_length_;
+    std::vector<S> lines_;
+    std::vector<S> newest_;
+    std::vector<S> all_inputs_;    ///< inputs, then past ones
+    DelayProgress delay_{};
     int run_ = 0;  ///< delayed plans: samples accepted since the last restart, at most 2
     Progress progress_{};
     std::vector<S> rings_;

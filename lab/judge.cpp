@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "lab/noise.hpp"
+#include "lab/outputs.hpp"
+#include "lab/recording_doubts.hpp"
 #include "lab/structure.hpp"
 #include "lab/weak_form.hpp"
 
@@ -19,38 +21,18 @@ constexpr double too_far_for_noise = 2.0;     ///< gap over floor beyond which i
 constexpr double share_of_white = 0.7;        ///< of the rows, that count as independent ones: autocorrelation of noise alone
 constexpr double no_noise = 50;               ///< F statistic of the weak form that noise does not reach
 constexpr double near_enough = 0.05;          ///< of the driving side of an equation: a residual that an engineer would be glad of
-constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
-constexpr std::size_t clipped_run = 5;        ///< samples in a row at an extreme that no noise would make alike
-
-/// Share of samples that stand in runs at the largest or smallest value.
-double clipped(const std::vector<double>& x) {
-    const auto [low, high] = std::minmax_element(x.begin(), x.end());
-    std::size_t count = 0;
-    for (const double extreme : {*low, *high}) {
-        std::size_t run = 0;
-        for (std::size_t k = 0; k <= x.size(); ++k) {
-            if (k < x.size() && x[k] == extreme) {
-                ++run;
-                continue;
-            }
-            if (run >= clipped_run) count += run;
-            run = 0;
-        }
-    }
-    return static_cast<double>(count) / static_cast<double>(x.size());
-}
-
-bool declares_noise(const model::Signal& s) { return s.noise || s.resolution; }
 
 /// True when every error is as rough as a sensor's noise: then it is noise, however little was declared.
 bool white(const Score& score) {
-    return std::all_of(score.independent.begin(), score.independent.end(), [&](double n) { return n > share_of_white * score.rows; });
+    return std::all_of(score.independent.begin(), score.independent.end(), [&](const double& n) { return n > share_of_white * score.rows[static_cast<std::size_t>(&n - score.independent.data())]; });
 }
 
-/// The equations whose rows cannot be formed, for a signal of theirs is not measured.
+/// The equations of motion whose rows cannot be formed, for a signal of theirs is not measured.
 std::vector<std::string> unseen(const Variant& v) {
     std::vector<std::string> out;
-    for (std::size_t e = 0; e < v.model.equations.size(); ++e) if (!has_weak_form(v.model, v.bench, e)) out.push_back(v.model.equations[e].name);
+    for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
+        if (output_of(v.model, v.model.equations[e]) < 0 && !has_weak_form(v.model, v.bench, e)) out.push_back(v.model.equations[e].name);
+    }
     return out;
 }
 
@@ -67,7 +49,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor) {
-        if (best.score.gap() > too_far_for_noise || structured(bench, best)) return Verdict::unknown;
+        if ((best.score.gap() > too_far_for_noise || structured(bench, best)) && !white(best.score)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
@@ -82,23 +64,16 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         const std::size_t s = static_cast<std::size_t>(outputs[o]);
         const model::Signal& signal = nominal.model.signals[s];
         if (!declares_noise(signal)) out.push_back(fmt::format("'{}' declares no noise: {:.3g} {} is taken from its roughness, and what is called a gap hangs on it", signal.name, noise[s], signal.unit));
-        if (verdict == Verdict::none && best.score.error[o] > too_far_for_noise * best.score.floor[o]) {
-            out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, best.score.error[o] / best.score.floor[o]));
-        }
-        if (bench.yardstick() != Yardstick::free_run || verdict != Verdict::named) continue;
+        if (bench.yardstick() != Yardstick::free_run || verdict == Verdict::unknown) continue;
         const double over = best.score.error[o] / best.score.floor[o];
-        if (over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
+        if (over > too_far_for_noise && white(best.score)) out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, over));
+        else if (over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
     }
-    for (std::size_t s = 0; s < nominal.bench.measured.size(); ++s) {
-        const std::vector<double>& x = nominal.bench.measured[s];
-        if (x.empty() || std::find(outputs.begin(), outputs.end(), static_cast<int>(s)) == outputs.end()) continue;
-        const double share = clipped(x);
-        if (share > clipped_share) out.push_back(fmt::format("'{}' stands at its largest or smallest value for {:.1f} percent of the recording: its sensor may be clipped", nominal.model.signals[s].name, 100 * share));
-    }
+    for (std::string& doubt : recording_doubts(nominal.model, nominal.bench)) out.push_back(std::move(doubt));
     if (verdict != Verdict::none) {
         for (const std::string& e : unseen(nominal)) out.push_back(fmt::format("'{}' has a signal that is not measured: only the free run could look for what it lacks", e));
     }
-    if (selection.cut_short) out.push_back("the search was stopped before every effect was tried: free runs of this model take long, for it is stiff or unstable with what was fitted");
+    if (selection.cut_short) out.push_back("the search was stopped before every effect was tried, for its free runs take long: the recording is long, or the model stiff or unstable with what was fitted");
     if (bench.yardstick() == Yardstick::rows) {
         out.push_back(fmt::format("this machine does not forget a disturbance, so one long run adds up every small error: effects were decided by the residuals of the equations over short windows, of which {:.3g} percent are left (before: {:.3g} percent of the driving side)",
                                   100 * best.score.nrmse, 100 * nominal.score.nrmse));
@@ -119,16 +94,21 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
     return out;
 }
 
-bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics) {
+namespace {
+
+/// One recording.
+bool excited(const Workbench& bench, const Variant& nominal, std::size_t recording, Diagnostics& diagnostics) {
+    const Bench& own = bench_of(nominal, recording);
+    const std::string& file = bench.recording(recording).file;
     bool out = true;
     bool moves = false;
-    const std::vector<double> noise = noise_by_signal(nominal.model, nominal.bench);
-    for (const int s : scored_outputs(nominal.model, nominal.bench)) {
-        const std::vector<double>& x = nominal.bench.measured[static_cast<std::size_t>(s)];
+    const std::vector<double> noise = noise_by_signal(nominal.model, own);
+    for (const int s : scored_outputs(nominal.model, own)) {
+        const std::vector<double>& x = own.measured[static_cast<std::size_t>(s)];
         const model::Signal& signal = nominal.model.signals[static_cast<std::size_t>(s)];
         const auto [low, high] = std::minmax_element(x.begin(), x.end());
         if (*low == *high) {
-            diagnostics.error(bench.recording().file, {}, "column '" + signal.column + "' is " + fmt::format("{:.6g}", *low) + " from end to end", "record the signal '" + signal.name + "', or give it scored = false");
+            diagnostics.error(file, {}, "column '" + signal.column + "' is " + fmt::format("{:.6g}", *low) + " from end to end", "record the signal '" + signal.name + "', or give it scored = false");
             out = false;
         }
         double squares = 0;
@@ -136,9 +116,17 @@ bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagno
         moves = moves || std::sqrt(squares / static_cast<double>(x.size())) > 2 * noise[static_cast<std::size_t>(s)];
     }
     if (out && !moves) {
-        diagnostics.error(bench.recording().file, {}, "no output rises above its noise: the machine was not excited", "record it while its inputs move");
+        diagnostics.error(file, {}, "no output rises above its noise: the machine was not excited", "record it while its inputs move");
         return false;
     }
+    return out;
+}
+
+}  // namespace
+
+bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics) {
+    bool out = true;
+    for (std::size_t r = 0; r < bench.recordings(); ++r) out = excited(bench, nominal, r, diagnostics) && out;
     return out;
 }
 

@@ -15,7 +15,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
 /// A sentence for each thing that a reader should not take for granted.
 std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict);
 
-/// Errors in `diagnostics` where a recording cannot show a gap: an output that never moves, or that stays within its noise.
+/// False, and errors in `diagnostics`, where a recording cannot show a gap: an output that never moves, or that stays within its noise.
 bool excited(const Workbench& bench, const Variant& nominal, Diagnostics& diagnostics);
 
 }  // namespace algest::lab

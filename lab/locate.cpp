@@ -196,7 +196,7 @@ std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const 
     for (std::size_t e = 0; e < nominal.model.equations.size(); ++e) {
         const std::string& name = nominal.model.equations[e].name;
         const auto known = std::find_if(out.begin(), out.end(), [&](const Where& w) { return w.equation == name; });
-        const std::size_t s = static_cast<std::size_t>(nominal.bench.system.moving[e]);
+        const std::size_t s = static_cast<std::size_t>(nominal.bench.system.gives[e]);
         if ((known != out.end() && rows_see_it) || nominal.bench.measured[s].empty()) continue;
         Series of_run;
         for (std::size_t row = bench.parts().train.begin; row < std::min(bench.parts().train.end, before.samples); ++row) of_run.add(row, nominal.bench.measured[s][row] - before.signals[s][row]);

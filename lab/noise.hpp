@@ -7,6 +7,9 @@
 
 namespace algest::lab {
 
+/// A sensor without any noise is none: noise = 0 declares nothing.
+bool declares_noise(const model::Signal& signal);
+
 /// Standard deviation by signal, in its unit: declared noise and resolution; else, of signals that move, their roughness; else 0.
 std::vector<double> noise_by_signal(const model::Model& model, const Bench& bench);
 

@@ -6,6 +6,7 @@
 
 #include "generator/delay.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/outputs.hpp"
 
 namespace algest::lab {
 
@@ -36,6 +37,9 @@ public:
 
     std::optional<OdeSystem> run() {
         if (model_.equations.empty()) return fail({}, "no equations", "a simulation needs equations of motion");
+        const auto outputs = output_order(model_, diagnostics_);
+        if (!outputs) return std::nullopt;
+        outputs_ = *outputs;
         find_orders();
         if (!assign_signals()) return std::nullopt;
         list_states();
@@ -89,18 +93,27 @@ private:
         return false;
     }
 
+    bool gives_an_output(std::size_t e) const { return std::find(outputs_.begin(), outputs_.end(), e) != outputs_.end(); }
+
     bool assign_signals() {
         for (std::size_t e = 0; e < model_.equations.size(); ++e) {
+            if (gives_an_output(e)) continue;
             std::vector<bool> tried(model_.signals.size(), false);
             if (!assign(e, tried)) {
                 fail(model_.equations[e].at, "equation '" + model_.equations[e].name + "' has no derivative left to give: each equation of motion moves one signal",
-                     "write der(x) = ... for one signal in each equation");
+                     "write der(x) = ... for one signal in each equation, y = ... for what a sensor shows");
                 return false;
             }
         }
-        out_.moving.resize(model_.equations.size());
-        for (const auto& [signal, e] : equation_of_) out_.moving[e] = signal;
-        return true;
+        out_.gives.assign(model_.equations.size(), -1);
+        for (const std::size_t e : outputs_) out_.gives[e] = output_of(model_, model_.equations[e]);
+        for (const auto& [signal, e] : equation_of_) out_.gives[e] = signal;
+        for (std::size_t e = 0; e < model_.equations.size(); ++e) {
+            if (!gives_an_output(e)) motion_.push_back(&model_.equations[e]);
+            if (!gives_an_output(e)) out_.moving.push_back(out_.gives[e]);
+        }
+        if (motion_.empty()) fail(model_.equations[0].at, "no equation moves anything", "a simulation needs der(x) = ... for a signal x");
+        return !motion_.empty();
     }
 
     bool moves(int signal) const { return std::find(out_.moving.begin(), out_.moving.end(), signal) != out_.moving.end(); }
@@ -118,7 +131,7 @@ private:
         for (const model::Feedback& f : model_.feedback) each_node(f.law, mark);
         for (std::size_t s = 0; s < used.size(); ++s) {
             const bool fed = std::any_of(model_.feedback.begin(), model_.feedback.end(), [&](const model::Feedback& f) { return f.signal == model_.signals[s].name; });
-            if (used[s] && !moves(static_cast<int>(s)) && !fed) out_.driven.push_back(static_cast<int>(s));
+            if (used[s] && std::find(out_.gives.begin(), out_.gives.end(), static_cast<int>(s)) == out_.gives.end() && !fed) out_.driven.push_back(static_cast<int>(s));
         }
     }
 
@@ -134,10 +147,9 @@ private:
     }
 
     bool highest_stand_outside_functions() {
-        for (std::size_t e = 0; e < model_.equations.size(); ++e) {
-            const model::Equation& equation = model_.equations[e];
-            for (const Formula* side : {&equation.sides.left, &equation.sides.right}) {
-                if (!linear_in_highest(*side, equation)) return false;
+        for (const model::Equation* equation : motion_) {
+            for (const Formula* side : {&equation->sides.left, &equation->sides.right}) {
+                if (!linear_in_highest(*side, *equation)) return false;
             }
         }
         return true;
@@ -201,18 +213,24 @@ private:
         }
     }
 
-    /// A delay equation is not simulated: what moves may be delayed where samples are taken, in a law, and nowhere else.
+    /// A delay equation is not simulated: what moves may be delayed where samples are taken, by a sensor or a law, and nowhere else.
     bool find_delays() {
-        for (const model::Equation& e : model_.equations) {
+        for (std::size_t e = 0; e < model_.equations.size(); ++e) {
+            const model::Equation& equation = model_.equations[e];
             std::vector<model::Delay> own;
-            for (const Formula* side : {&e.sides.left, &e.sides.right}) model::add_delays(model_, *side, own);
+            for (const Formula* side : {&equation.sides.left, &equation.sides.right}) model::add_delays(model_, *side, own);
             for (const model::Delay& d : own) {
-                if (!moves(d.signal)) continue;
-                fail(e.place(d.call->offset), "'" + d.call->arguments[0]->name + "' is delayed in an equation of motion, and an equation moves it: a delay equation cannot be simulated",
-                     "delay an input, or add a state that lags");
+                const std::string name = quoted(d.call->arguments[0]->name);
+                if (is_output(model_, d.signal)) {
+                    fail(equation.place(d.call->offset), name + " is an output, and its past is not kept", "delay what it is made of");
+                    return false;
+                }
+                if (!moves(d.signal) || gives_an_output(e)) continue;
+                fail(equation.place(d.call->offset), name + " is delayed in an equation of motion, and an equation moves it: a delay equation cannot be simulated",
+                     "delay an input, delay what a sensor shows (y = delay(x, 0.01)), or add a state that lags");
                 return false;
             }
-            for (const Formula* side : {&e.sides.left, &e.sides.right}) model::add_delays(model_, *side, delays_);
+            for (const Formula* side : {&equation.sides.left, &equation.sides.right}) model::add_delays(model_, *side, delays_);
         }
         for (const model::Feedback& f : model_.feedback) model::add_delays(model_, f.law, delays_);
         for (const model::Delay& d : delays_) {
@@ -234,7 +252,7 @@ private:
         out_.parameter_input = out_.inputs;
         for (std::size_t p = 0; p < model_.parameters.size(); ++p) tape_inputs_.parameter.push_back(out_.inputs++);
         out_.delay_input = out_.inputs;
-        for (const model::Delay& d : delays_) tape_inputs_.delay[d.text] = out_.inputs++;
+        for (const model::Delay& d : delays_) tape_inputs_.delay[{d.text, false}] = {plan::Op::input, out_.inputs++, -1, 0};
         out_.relay_input = out_.inputs;
         number_switches(tape_inputs_.relay, relay_arguments_, [](const Formula& argument) { return is_lone(argument); });
         number_switches(tape_inputs_.layer, layer_arguments_, [](const Formula& argument) { return !is_lone(argument); });
@@ -246,8 +264,8 @@ private:
     template <class Asked>
     void number_switches(std::map<const formula::Node*, int>& input, std::vector<Formula>& arguments, Asked asked) {
         std::map<std::string, int> known;
-        for (const model::Equation& e : model_.equations) {
-            each_node(e, [&](const Formula& f) {
+        for (const model::Equation* e : motion_) {
+            each_node(*e, [&](const Formula& f) {
                 if (f->kind != Kind::call || f->name != "sgn" || !moves_with_state(f->arguments[0]) || !asked(f->arguments[0])) return;
                 const auto [at, fresh] = known.emplace(formula::text(f->arguments[0]), out_.inputs);
                 input[f.get()] = at->second;
@@ -266,9 +284,9 @@ private:
 
     void compile() {
         TapeBuilder tape(model_, plan::Scalar::float64, tape_inputs_);
-        for (const model::Equation& e : model_.equations) {
-            const int left = tape.formula(e.sides.left);
-            const int right = tape.formula(e.sides.right);
+        for (const model::Equation* e : motion_) {
+            const int left = tape.formula(e->sides.left);
+            const int right = tape.formula(e->sides.right);
             tape.result(tape.difference(left, right));
         }
         int result = static_cast<int>(out_.moving.size());
@@ -282,6 +300,11 @@ private:
             tape.result(tape.formula(argument));
         }
         out_.residual = tape.finish();
+        for (const std::size_t e : outputs_) {
+            TapeBuilder output(model_, plan::Scalar::float64, tape_inputs_);
+            output.result(output.formula(model_.equations[e].sides.right));
+            out_.outputs.push_back({out_.gives[e], output.finish()});
+        }
         for (const model::Feedback& f : model_.feedback) {
             TapeBuilder law(model_, plan::Scalar::float64, tape_inputs_);
             law.result(law.formula(f.law));
@@ -294,6 +317,8 @@ private:
     OdeSystem out_;
     std::map<int, int> orders_;
     std::map<int, std::size_t> equation_of_;
+    std::vector<std::size_t> outputs_;               // equations that give an output, in the order of evaluation
+    std::vector<const model::Equation*> motion_;     // the others
     std::vector<model::Delay> delays_;
     TapeInputs tape_inputs_;
     std::vector<Formula> relay_arguments_;
@@ -303,6 +328,12 @@ private:
 }  // namespace
 
 bool moves(const OdeSystem& system, std::size_t signal) { return std::find(system.moving.begin(), system.moving.end(), static_cast<int>(signal)) != system.moving.end(); }
+
+std::vector<int> simulated_signals(const OdeSystem& system) {
+    std::vector<int> out = system.moving;
+    for (const Output& output : system.outputs) out.push_back(output.signal);
+    return out;
+}
 
 std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics) { return Compiler(model, diagnostics).run(); }
 

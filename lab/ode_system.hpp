@@ -43,15 +43,23 @@ struct Law {
     plan::Tape tape;     ///< one result; inputs as of the system
 };
 
+/// What a sensor shows, computed at the samples.
+struct Output {
+    int signal;
+    plan::Tape tape;     ///< one result; inputs as of the system
+};
+
 /// What moves, what is replayed, and the residual  left - right  of every equation, linear in the highest derivatives.
 ///
 /// Inputs of all tapes, in this order: signals (model order), derivatives of states above order 0 and the highest ones
 /// (`derivative_input`), parameters (model order), delayed signals, relays, widths of layers.
 struct OdeSystem {
     std::vector<StateEntry> states;        ///< for each moving signal its orders 0, 1, ... in turn
-    std::vector<int> moving;               ///< signals with an equation of their own, in the order of the equations
+    std::vector<int> moving;               ///< signals with an equation of motion of their own, in the order of those equations
+    std::vector<int> gives;                ///< by equation of the model: the signal that it moves, or gives as an output
     std::vector<int> highest;              ///< by moving: order of its highest derivative
     std::vector<int> driven;               ///< signals that are replayed from the recording
+    std::vector<Output> outputs;           ///< each behind those that it needs
     std::vector<Law> laws;
     std::vector<DelayedSignal> delays;
     std::vector<Relay> relays;
@@ -65,12 +73,15 @@ struct OdeSystem {
     bool constant_mass = true;             ///< the factors of the highest derivatives depend on parameters alone
 };
 
-/// True when a signal (index into the model's) has an equation of its own.
+/// True when a signal (index into the model's) has an equation of motion of its own.
 bool moves(const OdeSystem& system, std::size_t signal);
 
+/// What a run computes beside what laws set: the signals that move, then the outputs.
+std::vector<int> simulated_signals(const OdeSystem& system);
+
 /// Compiles the equations. Complains (bad input) where there are no equations of motion, where an equation has no derivative of its
-/// own to give, where a highest derivative stands inside a function, where an input is differentiated, or where an equation of motion
-/// delays what moves.
+/// own to give, where a highest derivative stands inside a function, where an input is differentiated, where an equation of motion
+/// delays what moves, or where output equations contradict (outputs.hpp).
 std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics);
 
 }  // namespace algest::lab

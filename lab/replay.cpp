@@ -170,7 +170,7 @@ ReplaySummary summarise(const Replay& replay) {
     }
     std::vector<double> values(ok.size());
     for (std::size_t p = 0; p < replay.parameter_count; ++p) {
-        if (replay.samples() > 0) out.last.push_back(replay.parameter(replay.samples() - 1, p));
+        out.last.push_back(ok.empty() ? std::nullopt : std::optional(replay.parameter(replay.samples() - 1, p)));   // before: an initial value
         std::transform(ok.begin(), ok.end(), values.begin(), [&](std::size_t k) { return replay.parameter(k, p); });
         out.median.push_back(median(values));
         const double deviation = ok.empty() || replay.deviations.empty() ? std::numeric_limits<double>::quiet_NaN() : replay.deviation(ok.back(), p);

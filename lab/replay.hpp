@@ -39,7 +39,7 @@ struct Replay {
 /// Of a Replay. Empty where no sample is ok.
 struct ReplaySummary {
     std::array<std::size_t, 4> count{};         ///< samples by Status
-    std::vector<double> last;                   ///< by parameter: held at the end of the stretch
+    std::vector<std::optional<double>> last;    ///< by parameter: held at the end of the stretch
     std::vector<std::optional<double>> median;  ///< by parameter, over ok samples
     std::vector<std::optional<double>> deviation;   ///< by parameter, of the last ok sample
     std::optional<double> condition_median;     ///< over ok samples

@@ -115,11 +115,11 @@ double over_floor(double error, const OutputGap& output) { return output.floor >
 
 /// The output whose error was furthest above its floor; null without outputs.
 const OutputGap* worst(const Discovery& d) {
-    const auto found = std::max_element(d.outputs.begin(), d.outputs.end(), [](const OutputGap& a, const OutputGap& b) {
+    const auto found = std::max_element(d.first().outputs.begin(), d.first().outputs.end(), [](const OutputGap& a, const OutputGap& b) {
         const double x = over_floor(a.before, a), y = over_floor(b.before, b);
         return std::isfinite(x) || std::isfinite(y) ? x < y : a.before < b.before;
     });
-    return found == d.outputs.end() ? nullptr : &*found;
+    return found == d.first().outputs.end() ? nullptr : &*found;
 }
 
 /// What the four cards at the head say of the gap: its size at the worst output.
@@ -136,7 +136,7 @@ void set_gap(Data& page, const Discovery& d) {
     page.set("gap_has_factor", std::isfinite(factor) && factor >= 1.05);
     set(page, "gap_factor", three_digits(factor));
     page.set("gap_was_at_floor", output != nullptr && floored && gap.before < called_the_floor * gap.floor);
-    page.set("gap_is_at_floor", output != nullptr && floored && std::all_of(d.outputs.begin(), d.outputs.end(), [](const OutputGap& o) { return o.after < called_the_floor * o.floor; }));
+    page.set("gap_is_at_floor", output != nullptr && floored && std::all_of(d.first().outputs.begin(), d.first().outputs.end(), [](const OutputGap& o) { return o.after < called_the_floor * o.floor; }));
 }
 
 /// How far behind the chosen effect the best one comes that was not chosen.
@@ -195,7 +195,7 @@ DataList texts_data(const std::string& name, const std::vector<std::string>& tex
 
 DataList gaps_data(const Discovery& d) {
     DataList list;
-    for (const OutputGap& output : d.outputs) {
+    for (const OutputGap& output : d.first().outputs) {
         Data data;
         set(data, "signal", output.signal);
         set(data, "before", three_digits(output.before));
@@ -209,9 +209,27 @@ DataList gaps_data(const Discovery& d) {
     return list;
 }
 
+/// The gap of every output in every recording.
+DataList recordings_data(const Discovery& d) {
+    DataList list;
+    for (const RecordingEvidence& r : d.recordings) {
+        for (const OutputGap& output : r.outputs) {
+            Data data;
+            set(data, "file", r.file);
+            set(data, "signal", output.signal);
+            set(data, "before", three_digits(output.before));
+            set(data, "after", three_digits(output.after));
+            set(data, "floor", output.floor > 0 ? three_digits(output.floor) : "-");
+            set(data, "gain", three_digits(r.gain));
+            list.push_back(data);
+        }
+    }
+    return list;
+}
+
 DataList tests_data(const Discovery& d, const model::Model& model, const Recording& recording, Figures& figures) {
     DataList list;
-    for (const OutputGap& output : d.outputs) {
+    for (const OutputGap& output : d.first().outputs) {
         const auto figure = test_figure(d, model, recording, output);
         if (!figure) continue;
         Data data;
@@ -346,13 +364,16 @@ std::string report_html(const Discovery& discovery, const model::Model& model, c
     set(page, "model_summary", model.summary);
     page.set("has_model_summary", !model.summary.empty());
     set(page, "model_file", files.model);
-    set(page, "recording_file", files.recording);
+    set(page, "recording_file", files.recordings[0]);
+    page.set("several_recordings", discovery.recordings.size() > 1);
+    set(page, "recording_count", std::to_string(discovery.recordings.size()));
+    set_list(page, "recordings", recordings_data(discovery));
     set(page, "samples", std::to_string(recording.samples()));
     set(page, "period", fmt::format("{:.6g}", recording.period));
-    set(page, "train_from", fmt::format("{:.6g}", discovery.train_from_s));
-    set(page, "train_to", fmt::format("{:.6g}", discovery.train_to_s));
-    set(page, "test_from", fmt::format("{:.6g}", discovery.test_from_s));
-    set(page, "test_to", fmt::format("{:.6g}", discovery.test_to_s));
+    set(page, "train_from", fmt::format("{:.6g}", discovery.first().train_from_s));
+    set(page, "train_to", fmt::format("{:.6g}", discovery.first().train_to_s));
+    set(page, "test_from", fmt::format("{:.6g}", discovery.first().test_from_s));
+    set(page, "test_to", fmt::format("{:.6g}", discovery.first().test_to_s));
 
     set(page, "verdict", name(discovery.verdict));
     for (const Verdict v : {Verdict::named, Verdict::ambiguous, Verdict::none, Verdict::unknown}) page.set(name(v), discovery.verdict == v);
@@ -384,7 +405,10 @@ std::string report_html(const Discovery& discovery, const model::Model& model, c
     page.set("is_amended", !files.amended.empty());
     set(page, "amended_file", files.amended);
     set(page, "model_word", shell_word(files.model));
-    set(page, "recording_word", shell_word(files.recording));
+    set(page, "recording_word", shell_word(files.recordings[0]));
+    std::string words;
+    for (const std::string& file : files.recordings) words += (words.empty() ? "" : " ") + shell_word(file);
+    set(page, "recording_words", words);
     set(page, "amended_word", shell_word(amended));
     set(page, "patch_word", shell_word(files.patch_file));
     set(page, "directory_word", shell_word(out));

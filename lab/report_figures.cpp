@@ -182,7 +182,7 @@ bool diverges(const std::vector<double>& run, const Axis& y) {
     return !std::isfinite(run.back()) || run.back() < y.from || run.back() > y.to;
 }
 
-bool has_after(const Discovery& discovery) { return !discovery.effects.empty() && !discovery.after.signals.empty(); }
+bool has_after(const Discovery& discovery) { return !discovery.effects.empty() && !discovery.first().after.signals.empty(); }
 
 }  // namespace
 
@@ -192,18 +192,18 @@ std::optional<TestFigure> test_figure(const Discovery& discovery, const model::M
     const auto index = static_cast<std::size_t>(model.signal_index(output.signal));
     Diagnostics quiet;   // discover has said what there is to say
     const auto values = signal_values(recording, {signal->name, signal->column, signal->unit}, quiet);
-    if (!values || index >= discovery.before.signals.size() || discovery.before.signals[index].empty()) return std::nullopt;
+    if (!values || index >= discovery.first().before.signals.size() || discovery.first().before.signals[index].empty()) return std::nullopt;
     const bool after = has_after(discovery);
     const double noise = std::isfinite(output.floor) ? output.floor * size_of(*values) : 0.0;
 
     Series series;
     for (std::size_t row = 0; row < recording.samples(); ++row) {
         const double t = recording.t[row];
-        if (t < discovery.test_from_s - 0.5 * recording.period || t > discovery.test_to_s + 0.5 * recording.period) continue;
+        if (t < discovery.first().test_from_s - 0.5 * recording.period || t > discovery.first().test_to_s + 0.5 * recording.period) continue;
         series.t.push_back(t);
         series.measured.push_back((*values)[row]);
-        series.before.push_back(at(discovery.before, index, row));
-        series.after.push_back(at(discovery.after, index, row));
+        series.before.push_back(at(discovery.first().before, index, row));
+        series.after.push_back(at(discovery.first().after, index, row));
         series.error_before.push_back(series.measured.back() - series.before.back());
         series.error_after.push_back(series.measured.back() - series.after.back());
     }
@@ -259,9 +259,9 @@ std::optional<Figure> time_figure(const Discovery& discovery, const EquationResi
         if (!(shown_to - shown_from > 0.08 * (panel.x.to - panel.x.from))) return;   // no room for its name
         panel.headings.push_back({0.5 * (shown_from + shown_to), text});
     };
-    mark(discovery.train_from_s, discovery.train_to_s, "train");
-    mark(discovery.test_from_s, discovery.test_to_s, "test");
-    panel.marked = {{discovery.test_from_s, discovery.test_to_s}};
+    mark(discovery.first().train_from_s, discovery.first().train_to_s, "train");
+    mark(discovery.first().test_from_s, discovery.first().test_to_s, "test");
+    panel.marked = {{discovery.first().test_from_s, discovery.first().test_to_s}};
     draw_line(panel, {residual.t, residual.before}, "before", colour::before, 1.2);
     if (after) draw_line(panel, {residual.t, residual.after}, "after", colour::after, 1.2);
     return Figure{"residual of " + residual.equation + " over time", static_cast<int>(width), static_cast<int>(panel.bottom + room_below), {panel}};
@@ -284,6 +284,7 @@ std::optional<Figure> law_figure(const EquationResidual& residual) {
     Extent y;
     y.take(open);
     if (law) y.take(residual.law);
+    if (after) y.take(residual.after);
     if (x.empty() || y.empty()) return std::nullopt;
     const Stretch across = x.widened(0.02);
     const Stretch up = y.widened(0.06);

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "lab/equation_places.hpp"
+#include "lab/outputs.hpp"
 #include "lab/rotating_frame.hpp"
 
 namespace algest::lab {
@@ -103,7 +104,7 @@ std::string time_name(const model::Model& model) {
 const std::vector<RoleKind>& role_kinds() {
     static const std::vector<RoleKind> kinds = {{"own", {}}, {"speed", {"rad/s", "m/s"}}, {"position", {"rad", "m"}}, {"angle", {"rad"}}, {"current", {"A"}},
                                                 {"any_speed", {"rad/s", "m/s"}}, {"input", {}}, {"time", {"s"}},
-                                                {"sensor", {}}, {"actuator", {}}, {"drive", {}}, {"leading", {}}, {"factor", {}}, {"difference", {"rad", "m"}}, {"constant", {}},
+                                                {"sensor", {}}, {"actuator", {}}, {"drive", {"A", "N.m", "N"}}, {"leading", {}}, {"factor", {}}, {"difference", {"rad", "m"}}, {"constant", {}},
                                                 {"d_current", {"A"}}, {"q_current", {"A"}}, {"rotor_speed", {"rad/s"}}, {"pole_pairs", {"1"}}};
     return kinds;
 }
@@ -137,10 +138,10 @@ std::vector<Filler> fillers(const std::string& kind, const model::Model& model, 
     for (std::size_t s = 0; s < model.signals.size(); ++s) {
         const Unit u = unit_of(model.signals[s]);
         const bool moves = std::any_of(model.equations.begin(), model.equations.end(), [&](const model::Equation& e) { return moved(model, e).signal == static_cast<int>(s); });
-        if (!measured[s]) continue;
+        if (!measured[s] || is_output(model, static_cast<int>(s))) continue;
         if (kind == "any_speed" && static_cast<int>(s) != own.signal && (fits(u, "rad/s") || fits(u, "m/s"))) out.push_back({model.signals[s].name, model.signals[s].unit});
         if (kind == "actuator" && !moves && model.signals[s].column != time_column && stands_in(model.equations[equation], model.signals[s].name)) out.push_back({model.signals[s].name, model.signals[s].unit});
-        if (kind == "drive" && static_cast<int>(s) != own.signal && stands_in(model.equations[equation], model.signals[s].name)) out.push_back({model.signals[s].name, model.signals[s].unit});
+        if (kind == "drive" && static_cast<int>(s) != own.signal && (fits(u, "A") || fits(u, "N.m") || fits(u, "N")) && stands_in(model.equations[equation], model.signals[s].name)) out.push_back({model.signals[s].name, model.signals[s].unit});
         if (kind == "input" && !moves) out.push_back({model.signals[s].name, model.signals[s].unit.empty() ? "1" : model.signals[s].unit});
     }
     return out;

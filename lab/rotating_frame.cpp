@@ -35,9 +35,9 @@ Coupling coupling(const equation::OperatorForm& form, int current, const std::ve
     return {};
 }
 
-/// The constant that has this value, else the number.
+/// The constant without a dimension that has this value, else the number.
 std::string number_text(const model::Model& model, double value) {
-    for (const model::Constant& c : model.constants) if (std::abs(exact::nearest(c.value, plan::Scalar::float64) - value) < 1e-9 * std::abs(value)) return c.name;
+    for (const model::Constant& c : model.constants) if (fits(units::Unit::parse(c.unit).value_or(units::Unit()), "1") && std::abs(exact::nearest(c.value, plan::Scalar::float64) - value) < 1e-9 * std::abs(value)) return c.name;
     return fmt::format("{:.6g}", value);
 }
 

@@ -21,6 +21,7 @@ constexpr double probe = 0.02;                    ///< of what drives an equatio
 constexpr double unsized_probe = 1e-3;            ///< where nothing tells its size, to begin with
 constexpr std::size_t lines_that_are_tried = 2;   ///< of each spectrum
 constexpr double price_of_a_scan = 1.5;   ///< a scan finds something in any noise
+constexpr double least_to_sharpen = 10;           ///< F statistic from which on a scanned value is worth placing between those of the scan
 constexpr std::size_t most_scanned_by_run = 16;
 constexpr double small_change = 0.02;             ///< of the outputs, that a probe of a parameter makes
 constexpr int most_probes = 4;
@@ -46,9 +47,13 @@ std::size_t index_of(const model::Model& model, const std::string& equation) {
 /// The weak residuals of the model as it is, by equation and window length: every candidate is compared with them.
 class Screen {
 public:
-    Screen(const Workbench& bench, const Variant& base) : bench_(bench), base_(base), recorded_(base.bench), measured_() {
-        for (const auto& m : base.bench.measured) measured_.push_back(!m.empty());
-        recorded_.measured.push_back(bench.recording().t);   // an amendment that brings a signal brings time, as the last
+    Screen(const Workbench& bench, const Variant& base) : bench_(bench), base_(base), measured_(base.bench.measured.size(), true) {
+        for (std::size_t r = 0; r < bench.recordings(); ++r) {
+            recorded_.push_back(bench_of(base, r));
+            for (std::size_t s = 0; s < measured_.size(); ++s) measured_[s] = measured_[s] && !recorded_[r].measured[s].empty();
+            recorded_[r].measured.push_back(bench.recording(r).t);   // an amendment that brings a signal brings time, as the last
+        }
+        for (std::size_t r = 0; r < bench.recordings(); ++r) with_time_.push_back({&recorded_[r], bench.parts(r).fitted});
     }
 
     std::vector<Candidate> of(const Effect& effect) {
@@ -57,19 +62,21 @@ public:
             if (enters_what_was_added(binding)) continue;
             Candidate best{binding, 0, 0, 0, {}, {}};
             const std::vector<double> scans = effect.scans.empty() ? std::vector<double>{0.0} : effect.scans[0].spectrum ? lines(binding) : scan_values(effect.scans[0], counted_in(effect.scans[0], binding));
-            if (effect.rewrite != Rewrite::add_term) {   // rows do not see a state, and what equations share they see one by one
-                if (!effect.scans.empty()) best.scans = scans;
-                out.push_back(std::move(best));
-                continue;
-            }
-            for (const double scan : scans) {
+            // Rows do not see a state, and what equations share they see one by one; a scan's value they know better than a run that has gone astray.
+            const bool by_rows = effect.rewrite == Rewrite::add_term || (!effect.scans.empty() && effect.states.empty());
+            for (const double scan : by_rows ? scans : std::vector<double>()) {
                 Candidate c = weigh(binding, scan);
                 if (scans.size() > 1) c.strength /= price_of_a_scan;
                 if (c.strength > best.strength || c.strength < 0) best = std::move(c);
             }
             if (best.strength < 0) continue;
-            if (best.strength > 0 && !effect.scans.empty() && effect.scans[0].spectrum) best = sharpened(std::move(best));
-            if (best.strength == 0 && scans.size() > 1 && scans.size() <= most_scanned_by_run) best.scans = scans;
+            if (best.strength > 0 && !effect.scans.empty() && effect.scans[0].spectrum) {
+                const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
+                best = sharpened(std::move(best), -0.5 * width, 0.5 * width);
+            } else if (best.strength > least_to_sharpen && !effect.scans.empty() && effect.scans[0].fitted) {
+                best = sharpened(std::move(best), below(scans, best.scan) - best.scan, above(scans, best.scan) - best.scan);
+            }
+            if (best.strength == 0 && !effect.scans.empty() && scans.size() <= most_scanned_by_run) best.scans = scans;
             out.push_back(std::move(best));
         }
         return out;
@@ -98,8 +105,10 @@ private:
         std::vector<double> start;
         for (const model::Parameter& p : model->parameters) {
             const int old = base_.model.parameter_index(p.name);
-            start.push_back(old >= 0 ? base_.fit.parameters[static_cast<std::size_t>(old)] : 0.0);
+            const auto added = std::find_if(a.names.begin(), a.names.end(), [&](const NewName& n) { return n.name == p.name; });
+            start.push_back(old >= 0 ? base_.fit.parameters[static_cast<std::size_t>(old)] : added != a.names.end() ? added->value : 0.0);
         }
+        const bool adds_terms = binding.effect->rewrite == Rewrite::add_term;
         // An effect that enters several equations at once is measured by the one that it explains least.
         for (const int intervals : weak_intervals(bench_.parts().fitted)) {
             double least = std::numeric_limits<double>::infinity();
@@ -107,12 +116,12 @@ private:
             for (const std::size_t e : binding.equations) {
                 const std::string& where = base_.whole.equations[e].name;
                 const auto& before = without(where, intervals);
-                const auto with = weak_form(*model, recorded_, index_of(*model, where), bench_.parts().fitted, intervals);
-                if (with && before && with->coefficients.size() == before->terms && known_alone(*with, *model)) {
+                const auto with = weak_form(*model, with_time_, index_of(*model, where), intervals);
+                if (adds_terms && with && before && with->coefficients.size() == before->terms && known_alone(*with, *model)) {
                     out.strength = -1;   // the same product with a value that is declared known: that value is in doubt, not an effect missing
                     return out;
                 }
-                if (!before || !with || with->coefficients.size() == before->terms) {   // the product stands there: only a free run may tell
+                if (!before || !with || (adds_terms && with->coefficients.size() == before->terms)) {   // the product stands there: only a free run may tell
                     least = -1;
                     break;
                 }
@@ -171,10 +180,19 @@ private:
         return true;
     }
 
-    /// The frequency near a line at which the weak form explains most: golden section over half a line's width on both sides.
-    Candidate sharpened(Candidate c) {
-        const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
-        const double there = least_by_golden_section([&](double frequency) { return -weigh(c.binding, frequency).strength; }, c.scan - 0.5 * width, c.scan + 0.5 * width);
+    /// The scanned values on both sides of one.
+    static double below(const std::vector<double>& scans, double value) {
+        const auto at = std::find(scans.begin(), scans.end(), value);
+        return at == scans.begin() ? value : *(at - 1);
+    }
+    static double above(const std::vector<double>& scans, double value) {
+        const auto at = std::find(scans.begin(), scans.end(), value);
+        return at + 1 == scans.end() ? value : *(at + 1);
+    }
+
+    /// The value near a scanned one at which the weak form explains most: golden section over a stretch around it.
+    Candidate sharpened(Candidate c, double from, double to) {
+        const double there = least_by_golden_section([&](double value) { return -weigh(c.binding, value).strength; }, c.scan + from, c.scan + to);
         Candidate best = weigh(c.binding, there);
         best.strength /= price_of_a_scan;
         return best.strength > c.strength ? best : c;
@@ -190,15 +208,16 @@ private:
         const auto known = before_.find(key);
         if (known != before_.end()) return known->second;
         std::optional<Before> out;
-        const auto form = weak_form(base_.model, base_.bench, index_of(base_.model, equation), bench_.parts().fitted, intervals);
+        const auto form = weak_form(base_.model, bench_.stretches(base_, &Parts::fitted), index_of(base_.model, equation), intervals);
         if (form) out = Before{weak_fit(*form, base_.fit.parameters), form->coefficients.size()};
         return before_.emplace(key, std::move(out)).first->second;
     }
 
     const Workbench& bench_;
     const Variant& base_;
-    Bench recorded_;   ///< of the base, with time
-    std::vector<bool> measured_;
+    std::vector<Bench> recorded_;        ///< of the base, with time, by recording
+    std::vector<BenchRows> with_time_;
+    std::vector<bool> measured_;         ///< by signal, in every recording
     std::map<std::pair<std::string, int>, std::optional<Before>> before_;
 };
 
@@ -209,7 +228,7 @@ namespace {
 /// The free run's error at the base's fit, without what its parameters could still take, and how far an effect would take it.
 class Slope {
 public:
-    Slope(Workbench& bench, const Variant& base) : bench_(bench), base_(base), at_{base.fit.parameters, {}, base.fit.initial, bench.parts().fitted} {
+    Slope(Workbench& bench, const Variant& base) : bench_(bench), base_(base), at_(bench.start_of(base, base, &Parts::fitted)) {
         residual_ = output_residual(base.model, base.bench, at_);
         const Eigen::HouseholderQR<Eigen::MatrixXd> qr(output_slopes(base.model, base.bench, at_));
         basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(qr.rows(), std::min(qr.rows(), qr.cols()));
@@ -239,9 +258,8 @@ private:
         const auto v = bench_.prepare(amended(base_.text, base_.whole, a), std::move(amendments), quiet);
         if (!v || !(left_.squaredNorm() > 0)) return;
         if (v->bench.options.stride != base_.bench.options.stride) return;   // it brings time to a run that nothing drove: other samples are kept
-        FitStart at = at_;
+        FitStart at = bench_.start_of(*v, base_, &Parts::fitted);
         at.parameters = neutral_parameters(*v, a);
-        at.initial = carried_initial(*v, base_);
         const std::vector<const NewName*> added = moved_by_slope(a);
         Eigen::MatrixXd slopes(left_.size(), static_cast<Eigen::Index>(added.size()));
         std::vector<double> sizes;

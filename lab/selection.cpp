@@ -21,6 +21,7 @@ constexpr double least_strength = 4;            ///< F statistic below which a c
 constexpr double least_share = 0.02;             ///< of the free run's error, the same
 constexpr double a_base_within = 2.0;           ///< validation error of a further base, over that of the best
 constexpr std::size_t bases = 2;                ///< that a further effect is tried beside: the best set of one may not be part of the best of two
+constexpr double still_falling = 0.7;           ///< validation error over the base's, below which a fit that has not ended goes on
 constexpr double needed_gain = 0.95;            ///< an effect must bring the validation error below this times what it was
 constexpr double needed_significance = 2.5;     ///< standard errors of the difference over blocks (16: a t of 2.5 is 1 in 40)
 constexpr double alike = 1.05;                  ///< validation errors within this ratio are not told apart,
@@ -78,6 +79,8 @@ std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, con
     auto v = bench.prepare(amended(base.text, base.whole, a), std::move(amendments), quiet);
     if (!v) return std::nullopt;
     bench.fit_and_score(*v, carried_over(*v, base), carried_initial(*v, base));
+    // What bends a model is further from its start than a term is.
+    if (!v->fit.converged && v->score.nrmse < still_falling * base.score.nrmse) bench.fit_and_score(*v, std::vector<double>(v->fit.parameters), std::vector<double>(v->fit.initial));
     return v;
 }
 
@@ -134,6 +137,7 @@ Variant sharply_switched(const Workbench& bench, Variant best) {
     if (best.bench.system.layers.empty() || bench.yardstick() != Yardstick::free_run || best.score.gap() <= at_the_floor) return best;
     Variant v = best;
     v.bench.options.layer_width = thin_layer;
+    for (Bench& further : v.further) further.options.layer_width = thin_layer;
     bench.fit_and_score(v, best.fit.parameters, best.fit.initial);
     return v.score.nrmse < best.score.nrmse ? v : best;
 }

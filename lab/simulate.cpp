@@ -34,9 +34,13 @@ double initial_value(const model::Signal& signal, const std::vector<double>& mea
     return order <= 2 ? initial_parabola(measured, period)[order] : 0.0;
 }
 
-double typical_size(const std::vector<double>& measured) {
+/// The largest value that was measured; of a hidden state what the model file says of its values.
+double typical_size(const model::Signal& signal, const std::vector<double>& measured) {
     double largest = 0;
     for (const double x : measured) largest = std::max(largest, std::abs(x));
+    for (const auto& said : {signal.initial, signal.min, signal.max}) {
+        if (measured.empty() && said) largest = std::max(largest, std::abs(exact::nearest(*said, plan::Scalar::float64)));
+    }
     return largest > 0 ? largest : 1.0;
 }
 
@@ -69,7 +73,13 @@ std::optional<Bench> bench(const model::Model& model, const Recording& recording
         const model::Signal& signal = model.signals[s];
         out.drive.held.push_back(signal.hold == plan::Hold::zoh);
         const bool drives = std::find(system->driven.begin(), system->driven.end(), static_cast<int>(s)) != system->driven.end();
-        if (!drives && recording.column(signal.column) == nullptr) continue;   // a hidden state, or a signal that nothing uses
+        if (!drives && recording.column(signal.column) == nullptr) {   // a hidden state, or a signal that nothing uses
+            if (signal.noise || signal.resolution || signal.column != signal.name) {
+                diagnostics.error(model.path, signal.at, "'" + signal.name + "' is declared as measured, but the recording has no column '" + signal.column + "'; there are " + recording.column_names(),
+                                  "give it column = \"...\", or leave out noise, resolution and column if nothing measures it");
+            }
+            continue;
+        }
         auto values = signal_values(recording, {signal.name, signal.column, signal.unit}, diagnostics);
         if (!values) continue;
         if (drives) out.drive.values[s] = *values;
@@ -82,7 +92,7 @@ std::optional<Bench> bench(const model::Model& model, const Recording& recording
         if (measured.empty() && !signal.initial && entry.order == 0) diagnostics.note(model.path, "the hidden state '" + signal.name + "' starts at 0");
         out.initial.push_back(initial_value(signal, measured, entry.order, out.drive.period));
         // A derivative changes by the signal's size within some tens of periods at the fastest.
-        out.options.scale.push_back(typical_size(measured) * std::pow(0.03 / out.drive.period, entry.order));
+        out.options.scale.push_back(typical_size(signal, measured) * std::pow(0.03 / out.drive.period, entry.order));
     }
     out.system = std::move(*system);
     return out;
@@ -110,7 +120,7 @@ std::optional<std::vector<double>> parameter_values(const model::Model& model, c
 
 std::vector<OutputError> output_errors(const model::Model& model, const Bench& bench, const FreeRun& run, std::size_t begin, std::size_t end) {
     std::vector<OutputError> out;
-    for (const int s : bench.system.moving) {
+    for (const int s : simulated_signals(bench.system)) {
         const std::size_t k = static_cast<std::size_t>(s);
         if (bench.measured[k].empty() || !model.signals[k].scored) continue;
         double squares = 0;

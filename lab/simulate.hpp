@@ -40,7 +40,7 @@ struct OutputError {
 /// max(std, 0.1 rms) of a measured signal: what an error is compared with.
 double size_of(const std::vector<double>& measured);
 
-/// Errors over rows [begin, end) of every moving signal that is measured and scored.
+/// Errors over rows [begin, end) of every simulated signal that is measured and scored.
 std::vector<OutputError> output_errors(const model::Model& model, const Bench& bench, const FreeRun& run, std::size_t begin, std::size_t end);
 
 /// `t [s]` and every simulated signal, as CSV.

@@ -30,24 +30,24 @@ struct Series {
     bool moves;
 };
 
-std::vector<Series> series_of(const Variant& v) {
+std::vector<Series> series_of(const Variant& v, const Bench& bench) {
     std::vector<Series> out;
-    const std::vector<double> noise = noise_by_signal(v.model, v.bench);
+    const std::vector<double> noise = noise_by_signal(v.model, bench);
     const auto add = [&](std::vector<double> values, bool moves) {
         const double size = size_of(values);
         if (!(size > 0)) return;
         for (double& x : values) x /= size;
         out.push_back({std::move(values), moves});
     };
-    for (std::size_t s = 0; s < v.bench.measured.size(); ++s) {
-        const std::vector<double>& m = v.bench.measured[s];
+    for (std::size_t s = 0; s < bench.measured.size(); ++s) {
+        const std::vector<double>& m = bench.measured[s];
         if (m.empty()) continue;
-        const bool own = moves(v.bench.system, s);
+        const bool own = moves(bench.system, s);
         add(m, own);
-        const bool has_speed = std::any_of(v.bench.system.states.begin(), v.bench.system.states.end(), [&](const StateEntry& e) { return e.signal == static_cast<int>(s) && e.order == 1; });
-        if (has_speed) add(slopes(m, noise[s], v.bench.drive.period), true);
+        const bool has_speed = std::any_of(bench.system.states.begin(), bench.system.states.end(), [&](const StateEntry& e) { return e.signal == static_cast<int>(s) && e.order == 1; });
+        if (has_speed) add(slopes(m, noise[s], bench.drive.period), true);
         for (std::size_t other = 0; other < s && own; ++other) {   // the twist of a shaft, the stroke of a spring between two bodies
-            const std::vector<double>& o = v.bench.measured[other];
+            const std::vector<double>& o = bench.measured[other];
             if (o.empty() || v.model.signals[other].unit != v.model.signals[s].unit || v.model.signals[s].unit.empty()) continue;
             std::vector<double> difference = m;
             for (std::size_t row = 0; row < o.size(); ++row) difference[row] -= o[row];
@@ -124,11 +124,11 @@ double line_threshold(Eigen::Index values) {
 
 /// The recording as the fitted model would have made it: its residual is what sampling alone makes of a model that is right.
 /// A run that diverges leaves the recording as it is.
-Bench simulated_bench(const Workbench& bench, const Variant& v) {
-    Bench out = v.bench;
-    const FreeRun run = bench.run(v, bench_tolerance);
-    if (run.samples < bench.parts().train.end) return out;
-    for (const int s : v.bench.system.moving) {
+Bench simulated_bench(const Workbench& bench, const Variant& v, std::size_t recording) {
+    Bench out = bench_of(v, recording);
+    const FreeRun run = bench.run(v, bench_tolerance, recording);
+    if (run.samples < bench.parts(recording).train.end) return out;
+    for (const int s : simulated_signals(out.system)) {
         std::vector<double>& m = out.measured[static_cast<std::size_t>(s)];
         if (m.empty()) continue;
         std::copy(run.signals[static_cast<std::size_t>(s)].begin(), run.signals[static_cast<std::size_t>(s)].end(), m.begin());
@@ -136,21 +136,20 @@ Bench simulated_bench(const Workbench& bench, const Variant& v) {
     return out;
 }
 
-}  // namespace
-
-bool structured(const Workbench& bench, const Variant& v) {
-    const Rows rows = bench.parts().train;
-    const Bench simulated = simulated_bench(bench, v);
-    const std::vector<Series> series = series_of(v);
+bool structured(const Workbench& bench, const Variant& v, std::size_t recording) {
+    const Rows rows = bench.parts(recording).train;
+    const Bench& recorded = bench_of(v, recording);
+    const Bench simulated = simulated_bench(bench, v, recording);
+    const std::vector<Series> series = series_of(v, recorded);
     for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
         for (const int intervals : weak_intervals(rows)) {
-            const auto form = weak_form(v.model, v.bench, e, rows, intervals);
+            const auto form = weak_form(v.model, recorded, e, rows, intervals);
             if (!form) continue;
             Eigen::VectorXd r = weak_residual(*form, weak_fit(*form, v.fit.parameters).parameters);   // its own: noise of the process in another equation bends the free run's
             const auto of_the_run = weak_form(v.model, simulated, e, rows, intervals);
             if (of_the_run) r -= weak_residual(*of_the_run, v.fit.parameters);
             // At the noise's level the signals' own noise, which both sides share, foretells.
-            const double noise = weak_noise(v.model, v.bench, e, rows, intervals, v.fit.parameters, noise_by_signal(v.model, v.bench));
+            const double noise = weak_noise(v.model, recorded, e, rows, intervals, v.fit.parameters, noise_by_signal(v.model, recorded));
             if (r.norm() < above_noise * noise * std::sqrt(static_cast<double>(r.size()))) continue;
             const auto candidates = features(series, rows, static_cast<std::size_t>(intervals) + 1, static_cast<std::size_t>(std::max<Eigen::Index>(r.size() / (2 * windows_a_feature), 1)) - 1);
             const auto weights = row_weights(v.model, e, intervals);
@@ -165,6 +164,13 @@ bool structured(const Workbench& bench, const Variant& v) {
             if (foretold(X, r) > share_of_structure || strongest_line(r) > line_threshold(r.size())) return true;
         }
     }
+    return false;
+}
+
+}  // namespace
+
+bool structured(const Workbench& bench, const Variant& v) {
+    for (std::size_t r = 0; r < bench.recordings(); ++r) if (structured(bench, v, r)) return true;
     return false;
 }
 

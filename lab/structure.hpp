@@ -5,7 +5,7 @@
 
 namespace algest::lab {
 
-/// True when the residual of some equation on the training rows can be foretold from the signals and their past, on windows that the
+/// True when the residual of some equation on the training rows of a recording can be foretold from the signals and their past, on windows that the
 /// rule was not fitted to, or stands in one spectral line.
 bool structured(const Workbench& bench, const Variant& v);
 

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
+#include "lab/largest_size.hpp"
 #include "lab/noise.hpp"
-#include "lab/weak_form.hpp"
 
 namespace algest::lab {
 
@@ -16,6 +17,7 @@ constexpr double fit_share = 0.7;               ///< of the training rows are fi
 constexpr std::size_t least_train = 100;        ///< rows
 constexpr std::size_t least_test = 10;
 constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
+constexpr double finest_part = 1e-4;
 constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
 constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
@@ -35,6 +37,26 @@ void start_at_fit(Variant& v) {
     for (std::size_t p = 0; p < v.model.parameters.size(); ++p) if (std::isfinite(v.fit.parameters[p])) v.model.parameters[p].initial = exact::from_double(v.fit.parameters[p]);
 }
 
+/// der(x) = v.
+bool is_kinematic(const model::Model& model, const model::Equation& e) {
+    const auto is_rate = [](const formula::Formula& f) { return f->kind == formula::Kind::call && f->name == "der" && f->arguments.size() == 1; };
+    const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
+    return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
+}
+
+/// Of two signals that an amendment bends the difference of, how small that is beside them: so much finer the run has to be.
+double smallest_part(const std::vector<Amendment>& amendments, const model::Model& model, const Bench& bench) {
+    double out = 1;
+    for (const Amendment& a : amendments) {
+        for (const Substitution& s : a.substitutions) {
+            if (s.what[0] != '(') continue;
+            const std::string first = s.what.substr(1, s.what.find('-') - 1);
+            out = std::min(out, largest_size(s.what, model, bench) / largest_size(first, model, bench));
+        }
+    }
+    return std::max(out, finest_part);
+}
+
 int row_intervals(const Rows& rows) {
     int out = intervals_of_a_row;
     while (out > 8 && 2 * rows.size() < least_windows * static_cast<std::size_t>(out)) out /= 2;
@@ -42,7 +64,7 @@ int row_intervals(const Rows& rows) {
 }
 
 /// Takes the errors of one output or equation into a score. nrmse holds the sum of squares until `finish`.
-void add(Score& score, const std::vector<double>& miss, double size, double floor) {
+void add(Score& score, std::size_t recording, const std::vector<double>& miss, double size, double floor) {
     std::vector<double> blocks(score_blocks, 0.0);
     double squares = 0;
     for (std::size_t k = 0; k < miss.size(); ++k) {
@@ -51,16 +73,28 @@ void add(Score& score, const std::vector<double>& miss, double size, double floo
     }
     const double error = std::sqrt(squares / static_cast<double>(miss.size()));
     score.error.push_back(error);
-    score.rows = static_cast<double>(miss.size());
+    score.recording.push_back(recording);
+    score.rows.push_back(static_cast<double>(miss.size()));
     score.floor.push_back(floor);
     score.blocks.push_back(std::move(blocks));
     score.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
     score.nrmse += std::pow(error / std::max(size, 1e-300), 2);
 }
 
+/// What the recordings beyond the first say of their initial states.
+std::vector<std::vector<double>> own_starts(const Variant& v) {
+    std::vector<std::vector<double>> out;
+    for (const Bench& bench : v.further) out.push_back(bench.initial);
+    return out;
+}
+
 void finish(Score& score) { score.nrmse = std::sqrt(score.nrmse / static_cast<double>(std::max<std::size_t>(score.error.size(), 1))); }
 
 }  // namespace
+
+const Bench& bench_of(const Variant& v, std::size_t recording) { return recording == 0 ? v.bench : v.further[recording - 1]; }
+
+const std::vector<double>& initial_of(const Variant& v, std::size_t recording) { return recording == 0 ? v.fit.initial : v.fit.further_initial[recording - 1]; }
 
 double Score::gap() const {
     double squares = 0;
@@ -101,12 +135,28 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     if (amendments.empty()) find_idle_kinematics(*model);
     const model::Model whole = *model;
     drop_idle_kinematics(*model);
-    auto ready = bench(*model, recording_, said);
-    if (!ready) return std::nullopt;
-    ready->options.tolerance = search_tolerance;
-    ready->options.effort = &effort_;
-    if (ready->system.driven.empty() && ready->system.laws.empty()) ready->options.stride = std::max<std::size_t>(1, parts_.train.size() / rows_of_an_undriven_run);
-    return Variant{text, std::move(amendments), std::move(*model), whole, std::move(*ready), {}, {}};
+    std::vector<Bench> benches;
+    for (const Trial& trial : trials_) {
+        auto one = ready(*model, trial, said);
+        if (!one) return std::nullopt;
+        one->options.tolerance *= smallest_part(amendments, *model, *one);
+        benches.push_back(std::move(*one));
+    }
+    Variant out{text, std::move(amendments), std::move(*model), whole, std::move(benches[0]), {}, {}};
+    out.further.assign(std::make_move_iterator(benches.begin() + 1), std::make_move_iterator(benches.end()));
+    return out;
+}
+
+std::optional<Bench> Workbench::ready(const model::Model& model, const Trial& trial, Diagnostics& diagnostics) {
+    model::Model sampled = model;
+    if (trials_.size() > 1) sampled.period = std::nullopt;   // each recording has its own
+    auto out = bench(sampled, *trial.recording, diagnostics);
+    if (!out) return std::nullopt;
+    out->options.tolerance = search_tolerance;
+    out->options.effort = &effort_;
+    const OdeSystem& system = out->system;
+    if (system.driven.empty() && system.laws.empty() && system.delays.empty()) out->options.stride = std::max<std::size_t>(1, trial.parts.train.size() / rows_of_an_undriven_run);
+    return out;
 }
 
 std::optional<model::Model> Workbench::runnable(const std::string& text) const {
@@ -129,7 +179,8 @@ void Workbench::find_idle_kinematics(const model::Model& model) {
             names_in(model.equations[other].sides.right, names);
             used = used || (other != e && names.count(x.name) > 0);
         }
-        if (!used && !x.scored && recording_.column(x.column) != nullptr) idle_.insert(model.equations[e].name);
+        const bool recorded = std::all_of(trials_.begin(), trials_.end(), [&](const Trial& t) { return t.recording->column(x.column) != nullptr; });
+        if (!used && !x.scored && recorded) idle_.insert(model.equations[e].name);
     }
 }
 
@@ -139,16 +190,19 @@ void Workbench::drop_idle_kinematics(model::Model& model) const {
 
 void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, const std::vector<double>& initial) const {
     if (yardstick_ == Yardstick::rows) {
-        const WeakEstimate estimate = weak_estimate(v.model, v.bench, parts_.fitted, row_intervals(parts_.validation), start);
-        v.fit = {estimate.parameters, estimate.sd, initial, 0, true, 0};
+        const WeakEstimate estimate = weak_estimate(v.model, stretches(v, &Parts::fitted), row_intervals(parts().validation), start);
+        v.fit = {estimate.parameters, estimate.sd, initial, 0, true, 0, own_starts(v)};
         v.score = rows_score(v);
         return;
     }
-    FitStart from{start, {}, initial, parts_.fitted, search_iterations, search_accuracy};
+    v.fit = {start, {}, initial, 0, false, 0, own_starts(v)};
+    FitStart from = start_of(v, v, &Parts::fitted);
+    from.most_iterations = search_iterations;
+    from.tolerance = search_accuracy;
     double least = output_error(v.model, v.bench, from);
-    for (const int intervals : weak_intervals(parts_.fitted)) {
+    for (const int intervals : weak_intervals(parts().fitted)) {
         FitStart at = from;
-        at.parameters = weak_estimate(v.model, v.bench, parts_.fitted, intervals, start).parameters;
+        at.parameters = weak_estimate(v.model, stretches(v, &Parts::fitted), intervals, start).parameters;
         const double error = output_error(v.model, v.bench, at);
         if (error < least) {
             least = error;
@@ -160,13 +214,25 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
     v.score = free_run_score(v);
 }
 
+FitStart Workbench::start_of(const Variant& v, const Variant& from, Rows Parts::*part) const {
+    FitStart out{from.fit.parameters, {}, carried_initial(v, from), parts().*part};
+    for (std::size_t r = 1; r < recordings(); ++r) out.further.push_back({&v.further[r - 1], carried_initial(v, from, r), parts(r).*part});
+    return out;
+}
+
+std::vector<BenchRows> Workbench::stretches(const Variant& v, Rows Parts::*part) const {
+    std::vector<BenchRows> out;
+    for (std::size_t r = 0; r < recordings(); ++r) out.push_back({&bench_of(v, r), parts(r).*part});
+    return out;
+}
+
 void Workbench::begin_search() { effort_.limit = effort_.spent + effort_of_a_search; }
 
 void Workbench::refine(Variant& v) {
     effort_.limit = effort_.spent + effort_of_a_last_fit;
-    FitStart from{v.fit.parameters, {}, v.fit.initial, parts_.train};
+    FitStart from = start_of(v, v, &Parts::train);
     if (yardstick_ == Yardstick::rows) {   // the run gets the initial values that suit it, the parameters stay those of the rows
-        const WeakEstimate estimate = weak_estimate(v.model, v.bench, parts_.train, row_intervals(parts_.validation), v.fit.parameters);
+        const WeakEstimate estimate = weak_estimate(v.model, stretches(v, &Parts::train), row_intervals(parts().validation), v.fit.parameters);
         from.parameters = estimate.parameters;
         from.fixed.assign(estimate.parameters.size(), true);
         v.fit = fit(v.model, v.bench, from);
@@ -178,100 +244,131 @@ void Workbench::refine(Variant& v) {
 }
 
 Score Workbench::free_run_score(const Variant& v) const {
-    const auto run = prediction(v.bench, v.fit.parameters, v.fit.initial, parts_.train);
-    const std::size_t stride = v.bench.options.stride;
-    const std::size_t skip = (parts_.validation.begin - parts_.train.begin + stride - 1) / stride;
-    const std::vector<double> noise = noise_by_signal(v.model, v.bench);
     Score out;
-    for (const int s : scored_outputs(v.model, v.bench)) {
-        const std::vector<double>& measured = v.bench.measured[static_cast<std::size_t>(s)];
-        const std::vector<double>& simulated = run[static_cast<std::size_t>(s)];
-        const double size = size_of(measured);
-        std::vector<double> miss;
-        for (std::size_t k = skip; k < simulated.size(); ++k) {
-            const double e = measured[parts_.train.begin + k * stride] - simulated[k];
-            miss.push_back(std::isfinite(e) ? std::clamp(e, -error_of_divergence * size, error_of_divergence * size) : error_of_divergence * size);
+    for (std::size_t r = 0; r < recordings(); ++r) {
+        const Bench& bench = bench_of(v, r);
+        const Parts& rows = parts(r);
+        const auto run = prediction(bench, v.fit.parameters, initial_of(v, r), rows.train);
+        const std::size_t stride = bench.options.stride;
+        const std::size_t skip = (rows.validation.begin - rows.train.begin + stride - 1) / stride;
+        const std::vector<double> noise = noise_by_signal(v.model, bench);
+        for (const int s : scored_outputs(v.model, bench)) {
+            const std::vector<double>& measured = bench.measured[static_cast<std::size_t>(s)];
+            const std::vector<double>& simulated = run[static_cast<std::size_t>(s)];
+            const double size = size_of(measured);
+            std::vector<double> miss;
+            for (std::size_t k = skip; k < simulated.size(); ++k) {
+                const double e = measured[rows.train.begin + k * stride] - simulated[k];
+                miss.push_back(std::isfinite(e) ? std::clamp(e, -error_of_divergence * size, error_of_divergence * size) : error_of_divergence * size);
+            }
+            add(out, r, miss, size, noise[static_cast<std::size_t>(s)]);
         }
-        add(out, miss, size, noise[static_cast<std::size_t>(s)]);
     }
     finish(out);
     return out;
 }
 
 Score Workbench::rows_score(const Variant& v) const {
-    const int intervals = row_intervals(parts_.validation);
-    const std::vector<double> noise = noise_by_signal(v.model, v.bench);
     Score out;
-    for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
-        const auto form = weak_form(v.model, v.bench, e, parts_.validation, intervals);
-        if (!form || std::find(form->used.begin(), form->used.end(), true) == form->used.end()) continue;
-        const Eigen::VectorXd r = weak_residual(*form, v.fit.parameters);
-        add(out, {r.data(), r.data() + r.size()}, driving_size(*form, v.fit.parameters), weak_noise(v.model, v.bench, e, parts_.validation, intervals, v.fit.parameters, noise));
+    for (std::size_t r = 0; r < recordings(); ++r) {
+        const Bench& bench = bench_of(v, r);
+        const Rows rows = parts(r).validation;
+        const int intervals = row_intervals(rows);
+        const std::vector<double> noise = noise_by_signal(v.model, bench);
+        for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
+            if (is_kinematic(v.model, v.model.equations[e])) continue;   // a definition; every variant scores the same equations
+            const auto form = weak_form(v.model, bench, e, rows, intervals);
+            if (!form) continue;
+            const Eigen::VectorXd residual = weak_residual(*form, v.fit.parameters);
+            add(out, r, {residual.data(), residual.data() + residual.size()}, driving_size(*form, v.fit.parameters), weak_noise(v.model, bench, e, rows, intervals, v.fit.parameters, noise));
+        }
     }
     finish(out);
     return out;
 }
 
-FreeRun Workbench::run(const Variant& v, double tolerance) const {
-    RunOptions options = v.bench.options;
+FreeRun Workbench::run(const Variant& v, double tolerance, std::size_t recording) const {
+    const Bench& bench = bench_of(v, recording);
+    const Rows train = parts(recording).train;
+    RunOptions options = bench.options;
     options.tolerance = tolerance;
-    options.first = parts_.train.begin;
+    options.first = train.begin;
     options.stride = 1;
-    FreeRun out = free_run(v.bench.system, v.fit.parameters, v.fit.initial, v.bench.drive, options);
-    if (parts_.train.begin == 0) return out;
+    FreeRun out = free_run(bench.system, v.fit.parameters, initial_of(v, recording), bench.drive, options);
+    if (train.begin == 0) return out;
     // The rows before the training stretch: from the recording's own start, which nothing was fitted to.
     options.first = 0;
-    options.end = parts_.train.begin;
-    FreeRun before = free_run(v.bench.system, v.fit.parameters, v.bench.initial, v.bench.drive, options);
+    options.end = train.begin;
+    FreeRun before = free_run(bench.system, v.fit.parameters, bench.initial, bench.drive, options);
     for (std::size_t s = 0; s < out.signals.size(); ++s) {
         if (out.signals[s].empty()) continue;
-        before.signals[s].resize(parts_.train.begin, before.signals[s].back());
+        before.signals[s].resize(train.begin, before.signals[s].back());
         out.signals[s].insert(out.signals[s].begin(), before.signals[s].begin(), before.signals[s].end());
     }
-    out.samples += parts_.train.begin;
+    out.samples += train.begin;
     return out;
 }
 
 bool Workbench::drifts(const Variant& fitted) const {
-    const Rows rows = {parts_.train.begin, parts_.train.begin + parts_.train.size() / 3};
+    for (std::size_t r = 0; r < recordings(); ++r) if (drifts(fitted, r)) return true;
+    return false;
+}
+
+bool Workbench::drifts(const Variant& fitted, std::size_t recording) const {
+    const Bench& bench = bench_of(fitted, recording);
+    const Rows train = parts(recording).train;
+    const Rows rows = {train.begin, train.begin + train.size() / 3};
     constexpr double push = 0.01;
-    std::vector<double> pushed = fitted.fit.initial;
-    for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] += push * fitted.bench.options.scale[i];
-    const auto here = prediction(fitted.bench, fitted.fit.parameters, fitted.fit.initial, rows);
-    const auto there = prediction(fitted.bench, fitted.fit.parameters, pushed, rows);
-    const std::vector<StateEntry>& states = fitted.bench.system.states;
+    const std::vector<double>& start = initial_of(fitted, recording);
+    std::vector<double> pushed = start;
+    for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] += push * bench.options.scale[i];
+    const auto here = prediction(bench, fitted.fit.parameters, start, rows);
+    const auto there = prediction(bench, fitted.fit.parameters, pushed, rows);
+    const std::vector<StateEntry>& states = bench.system.states;
     for (std::size_t i = 0; i < states.size(); ++i) {
         const std::size_t s = static_cast<std::size_t>(states[i].signal);
-        if (states[i].order > 0 || fitted.bench.measured[s].empty() || !fitted.model.signals[s].scored) continue;
+        if (states[i].order > 0 || bench.measured[s].empty() || !fitted.model.signals[s].scored) continue;
         const std::size_t count = here[s].size();
         const std::size_t from = count - count / 5;
         double squares = 0;
         for (std::size_t row = from; row < count; ++row) squares += std::pow(there[s][row] - here[s][row], 2);
-        const double left = std::sqrt(squares / static_cast<double>(count - from)) / (push * fitted.bench.options.scale[i]);
+        const double left = std::sqrt(squares / static_cast<double>(count - from)) / (push * bench.options.scale[i]);
         if (!(left < lasting)) return true;   // NaN: it diverged
     }
     return false;
 }
 
-std::vector<double> carried_initial(const Variant& v, const Variant& from) {
-    std::vector<double> out = v.bench.initial;
+std::vector<double> carried_initial(const Variant& v, const Variant& from, std::size_t recording) {
+    std::vector<double> out = bench_of(v, recording).initial;
     const std::vector<StateEntry>& states = from.bench.system.states;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const StateEntry& own = v.bench.system.states[i];
         for (std::size_t k = 0; k < states.size(); ++k) {
             const bool same = states[k].order == own.order && from.model.signals[static_cast<std::size_t>(states[k].signal)].name == v.model.signals[static_cast<std::size_t>(own.signal)].name;
-            if (same) out[i] = from.fit.initial[k];
+            if (same) out[i] = initial_of(from, recording)[k];
         }
     }
     return out;
 }
 
+namespace {
+
+double gain_of(const Score& a, const Score& b, std::size_t o) {
+    if (!(a.error[o] > 0) || !(b.error[o] > 0)) return 0;
+    return std::min(a.independent[o], b.independent[o]) * 2 * std::log(b.error[o] / a.error[o]);
+}
+
+}  // namespace
+
 double log_gain(const Score& a, const Score& b) {
     double out = 0;
-    for (std::size_t o = 0; o < a.error.size(); ++o) {
-        if (!(a.error[o] > 0) || !(b.error[o] > 0)) continue;
-        out += std::min(a.independent[o], b.independent[o]) * 2 * std::log(b.error[o] / a.error[o]);
-    }
+    for (std::size_t o = 0; o < a.error.size(); ++o) out += gain_of(a, b, o);
+    return out;
+}
+
+double log_gain(const Score& a, const Score& b, std::size_t recording) {
+    double out = 0;
+    for (std::size_t o = 0; o < a.error.size(); ++o) if (a.recording[o] == recording) out += gain_of(a, b, o);
     return out;
 }
 

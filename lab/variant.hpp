@@ -9,6 +9,7 @@
 #include "generator/diagnostics.hpp"
 #include "lab/amend.hpp"
 #include "lab/fit.hpp"
+#include "lab/weak_form.hpp"
 
 namespace algest::lab {
 
@@ -32,11 +33,12 @@ enum class Yardstick {
 
 /// How far a variant is from the validation rows.
 struct Score {
-    std::vector<double> error;                  ///< by output (free_run) or equation (rows): rms, in its unit
+    std::vector<double> error;                  ///< by recording, and in it by output (free_run) or equation (rows): rms, in its unit
+    std::vector<std::size_t> recording;         ///< of each error
     std::vector<double> floor;                  ///< the part of it that the sensors' noise makes
     std::vector<std::vector<double>> blocks;    ///< mean square error of each of `score_blocks` blocks
     std::vector<double> independent;            ///< samples that count, autocorrelated ones as less than one
-    double rows = 0;                            ///< samples of each output, or windows of each equation
+    std::vector<double> rows;                   ///< samples of each output, or windows of each equation
     double nrmse = 0;                           ///< rms of error / size (free_run), of residual / driving side (rows)
 
     /// Error over floor, rms over outputs or equations; infinite where a floor is zero.
@@ -55,15 +57,23 @@ struct Variant {
     Bench bench;
     Fit fit;
     Score score;
+    std::vector<Bench> further = {};   ///< of the further recordings
 };
 
-/// The workplace of a search: one nominal text, one recording, and what all its variants share.
+/// By recording, the first one first.
+const Bench& bench_of(const Variant& v, std::size_t recording);
+const std::vector<double>& initial_of(const Variant& v, std::size_t recording);
+
+/// The workplace of a search: one nominal text, one recording or several of one machine, and what all its variants share.
 class Workbench {
 public:
     /// path: of the model, for messages.
-    Workbench(std::string path, const Recording& recording, Parts parts) : path_(std::move(path)), recording_(recording), parts_(parts) {}
+    Workbench(std::string path, const Recording& recording, Parts parts) : path_(std::move(path)), trials_{{&recording, parts}} {}
     Workbench(const Workbench&) = delete;   // every bench that it prepares points to its effort
     Workbench& operator=(const Workbench&) = delete;
+
+    /// One more recording of the machine, before anything is prepared. Each is run at its own period then.
+    void add_recording(const Recording& recording, Parts parts) { trials_.push_back({&recording, parts}); }
 
     /// Reads the text and makes it ready to run. Errors of the nominal text (no amendments) go to `diagnostics`; nullopt after them.
     /// The first call, with the nominal text, decides which kinematic equations are idle.
@@ -79,8 +89,13 @@ public:
     void begin_search();
     bool used_up() const { return effort_.used_up(); }
 
-    /// Free run of a fitted variant over the whole recording; the rows before the training stretch are a run of their own.
-    FreeRun run(const Variant& v, double tolerance) const;
+    /// Free run of a fitted variant over a whole recording; the rows before the training stretch are a run of their own.
+    FreeRun run(const Variant& v, double tolerance, std::size_t recording = 0) const;
+
+    /// A variant on a part of each recording, its states starting where another one's fit has them (carried_initial); parameters as there.
+    FitStart start_of(const Variant& v, const Variant& from, Rows Parts::*part) const;
+    /// A part of each recording, for the rows of a variant's equations.
+    std::vector<BenchRows> stretches(const Variant& v, Rows Parts::*part) const;
 
     /// True when a disturbed start is still there a third of the training rows later: a long run adds up every small error.
     bool drifts(const Variant& fitted) const;
@@ -88,8 +103,9 @@ public:
     Yardstick yardstick() const { return yardstick_; }
     void measure_by(Yardstick yardstick) { yardstick_ = yardstick; }
 
-    const Parts& parts() const { return parts_; }
-    const Recording& recording() const { return recording_; }
+    std::size_t recordings() const { return trials_.size(); }
+    const Parts& parts(std::size_t recording = 0) const { return trials_[recording].parts; }
+    const Recording& recording(std::size_t k = 0) const { return *trials_[k].recording; }
     const std::string& path() const { return path_; }
 
     /// A text as it is run: without idle kinematics.
@@ -101,20 +117,29 @@ private:
     Score free_run_score(const Variant& v) const;
     Score rows_score(const Variant& v) const;
 
+    struct Trial {
+        const Recording* recording;
+        Parts parts;
+    };
+
+    std::optional<Bench> ready(const model::Model& model, const Trial& trial, Diagnostics& diagnostics);
+    bool drifts(const Variant& fitted, std::size_t recording) const;
+
     std::string path_;
-    const Recording& recording_;
-    Parts parts_;
+    std::vector<Trial> trials_;
     std::set<std::string> idle_;
     Yardstick yardstick_ = Yardstick::free_run;
     Effort effort_;
 };
 
-/// Initial values of v's states as another variant's fit has them; its own for those that the other lacks.
-std::vector<double> carried_initial(const Variant& v, const Variant& from);
+/// Initial values of v's states in a recording as another variant's fit has them; its own for those that the other lacks.
+std::vector<double> carried_initial(const Variant& v, const Variant& from, std::size_t recording = 0);
 
 /// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):
 /// the sum over outputs of rows times log(b^2/a^2).
 double log_gain(const Score& a, const Score& b);
+/// The part of it that one recording makes.
+double log_gain(const Score& a, const Score& b, std::size_t recording);
 
 /// How sure it is that a is nearer than b: mean over its standard error, block by block, of the logarithm of the ratio of their squared
 /// errors (logarithms, so that one stretch with a large error does not speak for all).

@@ -34,7 +34,9 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
     for (std::size_t s = 0; s < model.signals.size(); ++s) inputs.signal.push_back(static_cast<int>(s));
     std::vector<std::vector<double>> samples = bench.measured;
     for (const model::Delay& d : delays_of(model, form)) {
-        inputs.delay[d.text] = static_cast<int>(samples.size());
+        const int at = static_cast<int>(samples.size());
+        inputs.delay[{d.text, false}] = {plan::Op::input, at, -1, 0};
+        inputs.delay[{d.text, true}] = {plan::Op::previous, at, -1, 0};
         samples.push_back(delayed_samples(bench.measured[static_cast<std::size_t>(d.signal)], samples_ago(exact::nearest(*d.by, plan::Scalar::float64), bench.drive.period)));
     }
     TapeBuilder builder(model, plan::Scalar::float64, inputs);
@@ -127,7 +129,7 @@ bool measured(const Bench& bench, const equation::OperatorForm& form) {
 /// The form of an equation that every signal of it is measured for, on rows enough for two windows.
 std::optional<equation::OperatorForm> measured_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
     auto form = form_with_held_parameters(model, equation);
-    if (!form || form->terms.empty() || rows.size() < 2 * static_cast<std::size_t>(intervals) + 4) return std::nullopt;
+    if (!form || form->n == 0 || rows.size() < 2 * static_cast<std::size_t>(intervals) + 4) return std::nullopt;
     if (!measured(bench, *form)) return std::nullopt;
     return form;
 }
@@ -142,7 +144,7 @@ std::vector<int> weak_intervals(const Rows& rows) {
 
 bool has_weak_form(const model::Model& model, const Bench& bench, std::size_t equation) {
     const auto form = form_with_held_parameters(model, equation);
-    return form && measured(bench, *form);
+    return form && form->n > 0 && measured(bench, *form);
 }
 
 std::vector<double> row_weights(const model::Model& model, std::size_t equation, int intervals) {
@@ -178,6 +180,23 @@ std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench,
     return out;
 }
 
+std::optional<WeakForm> weak_form(const model::Model& model, const std::vector<BenchRows>& stretches, std::size_t equation, int intervals) {
+    std::optional<WeakForm> out;
+    for (const BenchRows& stretch : stretches) {
+        auto form = weak_form(model, *stretch.bench, equation, stretch.rows, intervals);
+        if (!form) continue;
+        if (!out) {
+            out = std::move(form);
+            continue;
+        }
+        const Eigen::Index above = out->columns.rows();
+        out->columns.conservativeResize(above + form->columns.rows(), Eigen::NoChange);
+        out->columns.bottomRows(form->columns.rows()) = form->columns;
+    }
+    if (out && stretches.size() > 1) out->centre.clear();
+    return out;
+}
+
 double weak_noise(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals, const std::vector<double>& parameters, const std::vector<double>& noise) {
     const auto form = measured_form(model, bench, equation, rows, intervals);
     if (!form) return 0;
@@ -203,14 +222,17 @@ double weak_noise(const model::Model& model, const Bench& bench, std::size_t equ
     return std::sqrt(variance / static_cast<double>(windows.count));
 }
 
-WeakEstimate weak_estimate(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start) {
+WeakEstimate weak_estimate(const model::Model& model, const std::vector<BenchRows>& stretches, int intervals, const std::vector<double>& start) {
     WeakEstimate out{start, std::vector<double>(start.size(), std::numeric_limits<double>::infinity())};
     std::vector<WeakForm> forms;
     std::vector<double> scale;
     std::vector<bool> open(start.size(), false);
     Eigen::Index windows = 0;
-    for (std::size_t e = 0; e < model.equations.size(); ++e) {
-        auto form = weak_form(model, bench, e, rows, intervals);
+    std::vector<std::optional<WeakForm>> all;
+    for (const BenchRows& stretch : stretches) {
+        for (std::size_t e = 0; e < model.equations.size(); ++e) all.push_back(weak_form(model, *stretch.bench, e, stretch.rows, intervals));
+    }
+    for (std::optional<WeakForm>& form : all) {
         if (!form) continue;
         const WeakFit own = weak_fit(*form, start);
         if (own.unknowns == 0 || !(own.residual > 0)) continue;

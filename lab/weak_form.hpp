@@ -24,14 +24,24 @@ struct WeakForm {
 /// Window lengths, in intervals, that are worth trying on so many rows: noise wants long windows, fast dynamics short ones.
 std::vector<int> weak_intervals(const Rows& rows);
 
-/// True when every signal of an equation is measured; its rows cannot be formed else.
+/// True when rows of an equation can be formed: it moves something, every signal of it is measured, and no parameter enters nonlinearly.
 bool has_weak_form(const model::Model& model, const Bench& bench, std::size_t equation);
 
 /// Weights, oldest sample first, that the rows of an equation give to what is not differentiated, held linearly.
 std::vector<double> row_weights(const model::Model& model, std::size_t equation, int intervals);
 
-/// Nullopt where a signal of the equation is not measured, or the rows are fewer than two windows. intervals: of a window.
+/// Nullopt where has_weak_form is false, or the rows are fewer than two windows. intervals: of a window.
 std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals);
+
+/// A stretch of a recording.
+struct BenchRows {
+    const Bench* bench;
+    Rows rows;
+};
+
+/// The rows of several recordings of one machine, one below the other, as one form; recordings that have none are left out, and so is
+/// `centre`. intervals: of a window, in samples of each recording.
+std::optional<WeakForm> weak_form(const model::Model& model, const std::vector<BenchRows>& stretches, std::size_t equation, int intervals);
 
 /// Least squares of the rows over the parameters of the equation, from `start` on (one Gauss-Newton step is exact where the equation is
 /// linear). Parameters of the leading coefficient are held where no term is known.
@@ -49,9 +59,9 @@ struct WeakEstimate {
     std::vector<double> sd;
 };
 
-/// The same over all equations at once, each in units of its own residual: what free runs start from. Within the model's bounds;
+/// The same over all equations and stretches at once, each in units of its own residual: what free runs start from. Within the model's bounds;
 /// parameters that no measured equation sees stay at `start`. Standard deviations count autocorrelated windows as less than one.
-WeakEstimate weak_estimate(const model::Model& model, const Bench& bench, Rows rows, int intervals, const std::vector<double>& start);
+WeakEstimate weak_estimate(const model::Model& model, const std::vector<BenchRows>& stretches, int intervals, const std::vector<double>& start);
 
 /// Rms over the windows of the driving side: the terms with known coefficients, else the leading one. Of a residual, the measure that
 /// R^2 = 1 - (rms residual / rms driving side)^2 is taken by.

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -105,6 +106,15 @@ bool StagedFile::put(Diagnostics& diagnostics) {
     if (std::rename(temporary_.c_str(), place_.c_str()) != 0) return fail(errno, diagnostics);
     temporary_.clear();
     return true;
+}
+
+bool write_files(const std::vector<NewFile>& files, Diagnostics& diagnostics) {
+    std::vector<StagedFile> staged;
+    for (const NewFile& f : files) {
+        staged.emplace_back(f.path, f.bytes, diagnostics);
+        if (!staged.back().good()) return false;
+    }
+    return std::all_of(staged.begin(), staged.end(), [&](StagedFile& f) { return f.put(diagnostics); });
 }
 
 bool write_file(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "generator/diagnostics.hpp"
 
@@ -33,6 +34,14 @@ private:
     std::string direct_;     ///< bytes for a device or pipe
     bool good_ = false;
 };
+
+struct NewFile {
+    std::string path;
+    std::string bytes;
+};
+
+/// Writes several files: none of them is touched before all are on the disk. False, and an error in `diagnostics`, if one could not be.
+bool write_files(const std::vector<NewFile>& files, Diagnostics& diagnostics);
 
 /// Writes one file whole. False, and an error in `diagnostics`, if it could not be: what was there before is then untouched.
 bool write_file(const std::string& path, std::string_view bytes, Diagnostics& diagnostics);

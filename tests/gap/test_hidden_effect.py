@@ -9,6 +9,22 @@ from pathlib import Path
 from environment import ALGEST
 from hidden_motor import MODEL, TC, recording
 
+SEAL = """\
+name = "seal_friction"
+summary = "friction of my seal"
+[enters]
+units = ["N.m"]
+[roles]
+speed = "speed"
+[rewrite]
+kind = "add_term"
+term = "-Tseal*sgn({speed})"
+[[parameter]]
+name = "Tseal"
+unit = "{equation}"
+min = 0
+"""
+
 
 class HiddenEffect(unittest.TestCase):
     def discover(self, folder, friction, *more):
@@ -27,6 +43,9 @@ class HiddenEffect(unittest.TestCase):
             self.assertEqual([e["name"] for e in found["effects"]], ["coulomb_friction"])
             self.assertEqual(found["effects"][0]["equation"], "torque balance")
             self.assertAlmostEqual(found["effects"][0]["parameters"][0]["value"], TC, delta=0.05 * TC)   # the issue's bar
+            where = max(found["where"], key=lambda w: w["share"])
+            self.assertEqual((where["equation"], where["region"]), ("torque balance", "follows the sign of w"))
+            self.assertGreater(where["share"], 0.9)   # the other equation holds nothing but noise
             for output in found["outputs"]:
                 self.assertLess(output["nrmse_after"], 1.2 * output["noise_floor"], output)
                 self.assertGreater(output["nrmse_before"], 2 * output["nrmse_after"], output)
@@ -48,13 +67,50 @@ class HiddenEffect(unittest.TestCase):
             found = self.discover(Path(name), 0.0)
             self.assertEqual((found["verdict"], found["effects"], found["model"]), ("none", [], None))
 
+    def test_a_later_run_takes_back_what_an_earlier_one_wrote(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            self.discover(folder, TC)
+            self.assertTrue((folder / "found" / "motor.patch").exists())
+            self.discover(folder, 0.0)
+            self.assertEqual(sorted(p.name for p in (folder / "found").iterdir()), ["after.csv", "before.csv", "report.html"])
+
+    def test_only_what_is_named_is_applied(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            found = self.discover(folder, TC, "--apply")
+            self.assertEqual((folder / "motor.toml").read_text(), Path(found["model"]).read_text())
+            (folder / "effects").mkdir()
+            (folder / "effects" / "seal.toml").write_text(SEAL)
+            found = self.discover(folder, TC, "--apply")
+            self.assertEqual(found["verdict"], "ambiguous")
+            self.assertEqual((folder / "motor.toml").read_text(), MODEL)
+
+    def test_a_folder_that_cannot_be_is_refused_before_the_search(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "motor.toml").write_text(MODEL)
+            (folder / "run.csv").write_text(recording(TC, 7))
+            done = subprocess.run([ALGEST, "discover", folder / "motor.toml", folder / "run.csv", "-o", folder / "run.csv" / "found"], text=True, capture_output=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("choose another one for -o", done.stderr)
+
+    def test_a_declared_sensor_without_a_column(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "motor.toml").write_text(MODEL)
+            (folder / "run.csv").write_text(recording(TC, 7).replace("w [rad/s]", "omega [rad/s]", 1))
+            for command in (["discover", "motor.toml", "run.csv", "-o", "found"], ["simulate", "motor.toml", "run.csv"]):
+                done = subprocess.run([ALGEST, *command], cwd=folder, text=True, capture_output=True)
+                self.assertEqual(done.returncode, 2, done.stdout)
+                self.assertIn("'w' is declared as measured, but the recording has no column 'w'; there are", done.stderr)
+                self.assertFalse((folder / "found").exists())
+
     def test_a_user_teaches_an_effect_by_adding_a_file(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "effects").mkdir()
-            (folder / "effects" / "seal.toml").write_text(
-                'name = "seal_friction"\nsummary = "friction of my seal"\n[enters]\nunits = ["N.m"]\n[roles]\nspeed = "speed"\n'
-                '[rewrite]\nkind = "add_term"\nterm = "-Tseal*sgn({speed})"\n[[parameter]]\nname = "Tseal"\nunit = "{equation}"\nmin = 0\n')
+            (folder / "effects" / "seal.toml").write_text(SEAL)
             found = self.discover(folder, TC)
             # The same term as coulomb_friction: the data cannot tell the two apart, and discover says so.
             self.assertEqual(found["verdict"], "ambiguous")

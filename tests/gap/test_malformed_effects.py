@@ -90,6 +90,78 @@ name = "Vd"
 unit = "{equation}"
 """
 
+LAG = """\
+name = "slow_valve"
+summary = "a valve that follows"
+shows = "the slope of the input"
+reference = "measured on our bench"
+
+[roles]
+input = "actuator"
+
+[rewrite]
+kind = "add_state"
+
+[[edit]]
+in = "all"
+what = "{input}"
+by = "opening"
+
+[[state]]
+name = "opening"
+unit = "{input}"
+initial = 0
+equation = "tau*der(opening) = {input} - opening"
+
+[[scan]]
+name = "tau"
+unit = "s"
+of = "period"
+from = 0.5
+to = 64
+factor = 2
+fitted = true
+"""
+
+GAIN = """\
+name = "wrong_scale"
+summary = "a scale that is wrong"
+shows = "a line"
+reference = "measured on our bench"
+
+[roles]
+sensor = "sensor"
+
+[rewrite]
+kind = "transform_signal"
+
+[[edit]]
+in = "all"
+what = "{sensor}"
+by = "{sensor}/scale"
+derivative = "{derivative}/scale"
+
+[[parameter]]
+name = "scale"
+unit = "1"
+neutral = 1
+min = 0.1
+"""
+
+VALUE = """\
+name = "wrong_value"
+summary = "a constant that is wrong"
+shows = "a line"
+reference = "measured on our bench"
+
+[roles]
+known = "constant"
+
+[rewrite]
+kind = "free_constant"
+what = "{known}"
+"""
+
 MODEL = """\
 name = "m"
 [sampling]
@@ -124,6 +196,14 @@ def wave(*pairs):
 
 def frame(*pairs):
     return changed(FRAME, *pairs)
+
+
+def lag(*pairs):
+    return changed(LAG, *pairs)
+
+
+def gain(*pairs):
+    return changed(GAIN, *pairs)
 
 
 def term(text):
@@ -288,7 +368,40 @@ TERMS = [
     ("unknown name in q", frame("cos({angle})", "cos(▸th)"), "unknown name 'th'"),
 ]
 
-CASES = {"TOML": TOML, "keys": KEYS, "missing": MISSING, "values": VALUES, "names": NAMES, "terms": TERMS}
+EDITS = [
+    ("misspelt key of an edit", gain("what", "▸waht = 1\nwhat"), "did you mean what?"),
+    ("misspelt key of a state", lag("initial", "▸inital"), "did you mean initial?"),
+    ("no edit", gain("[rewrite]", "▸[rewrite]", GAIN[GAIN.index("[[edit]]"):GAIN.index("[[parameter]]")], ""), "no [[edit]]"),
+    ("no state", lag("[rewrite]", "▸[rewrite]", LAG[LAG.index("[[state]]"):LAG.index("[[scan]]")], "", '"opening"', '"{input}"'), "no [[state]]"),
+    ("an edit of nothing", gain("[[edit]]", "▸[[edit]]", 'what = "{sensor}"\n', ""), "no what"),
+    ("an edit by nothing", gain("[[edit]]", "▸[[edit]]", 'by = "{sensor}/scale"\n', ""), "no by"),
+    ("a state without equation", lag("[[state]]", "▸[[state]]", 'equation = "tau*der(opening) = {input} - opening"\n', ""), "no equation"),
+    ("unknown reach", gain('"all"', '▸"both"'), "'both' is no reach of an edit"),
+    ("unknown part", gain('in = "all"', 'at = ▸"first"'), "'first' is no part of an equation"),
+    ("what is no role", gain('what = "{sensor}"', 'what = ▸"w"'), "'w' is no role; write one of [roles] in braces"),
+    ("a term beside what", gain('in = "all"', 'add = "scale*{sensor}"', "what = ", "what = ▸", "by = ", "by = ▸", "\nderivative = ", "\nderivative = ▸"), "'what' beside 'add'"),
+    ("unknown name in by", gain('"{sensor}/scale"', '"{sensor}/▸scal"'), "did you mean scale?"),
+    ("role without braces in by", gain('"{sensor}/scale"', '"▸sensor/scale"'), "'sensor' stands without braces"),
+    ("parameter in braces in by", gain('"{sensor}/scale"', '"{sensor}/{▸scale}"'), "'scale' stands in braces"),
+    ("by not closed", gain('"{sensor}/scale"', '▸"{sensor/scale"'), "do not pair"),
+    ("by that is no formula", gain('"{sensor}/scale"', '"{sensor}/▸/scale"'), "an operand is missing"),
+    ("a state beside a transformed signal", GAIN + '\n▸[[state]]\nname = "x"\nequation = "der(x) = {sensor}"\n', "[[state]] beside another kind"),
+    ("an edit beside a term", friction("[[parameter]]", '▸[[edit]]\nadd = "x"\n[[parameter]]'), "[[edit]] beside kind"),
+    ("a parameter beside a constant", VALUE + '\n▸[[parameter]]\nname = "x"\nunit = "1"\n', "[[parameter]] beside kind"),
+    ("no constant", without(VALUE.replace("[rewrite]", "▸[rewrite]"), "what"), "no what"),
+    ("a constant that is no role", VALUE.replace('what = "{known}"', 'what = ▸"K"'), "'K' is no role"),
+    ("neutral of a term", friction("min = 0", "neutral = ▸1"), "'neutral' of a term"),
+    ("neutral that is no role", gain("neutral = 1", 'neutral = ▸"one"'), "no value at which the effect does nothing"),
+    ("of something else", lag('"period"', '▸"hour"'), "nothing that a range can be counted in"),
+    ("step beside factor", lag("factor = 2", "factor = 2\nstep = ▸1"), "'step' beside 'factor'"),
+    ("factor of 1", lag("factor = 2", "factor = ▸1"), "'factor' is below 1.01"),
+    ("factor from 0", lag("from = 0.5", "from = ▸0"), "'from' is not positive"),
+    ("unit of a state", lag('unit = "{input}"', 'unit = ▸"Nm"'), "write N.m"),
+    ("no parameter of a gain", "▸" + GAIN[:GAIN.index("[[parameter]]")].replace("/scale", "/2"), "no [[parameter]]"),
+    ("unused state", lag('by = "opening"', 'by = "{input}"', "tau*der(opening) = {input} - opening", "tau*{input} = {input}", 'name = "opening"', 'name = ▸"opening"'), "stands in no term"),
+]
+
+CASES = {"TOML": TOML, "keys": KEYS, "missing": MISSING, "values": VALUES, "names": NAMES, "terms": TERMS, "edits": EDITS}
 
 
 class Malformed(ModelCase):
@@ -330,9 +443,17 @@ class Malformed(ModelCase):
 
     def test_what_they_are_made_from_is_sound(self):
         self.sound()   # the library
-        for text in (FRICTION, WAVE, FRAME, "format = 1\noutside = true\n" + FRICTION, friction("min = 0", "min = -0.5"), friction("min = 0", 'min = "1/3"'),
+        for text in (FRICTION, WAVE, FRAME, LAG, VALUE, GAIN, "format = 1\noutside = true\n" + FRICTION, friction("min = 0", "min = -0.5"), friction("min = 0", 'min = "1/3"'),
                      term("-Tseal*{speed}/(2*{speed})"), friction("-Tseal*sgn({speed})", "-Tseal*der({speed})", '"{equation}"', '"{equation}/({speed}).s"'),
                      wave("from = 2\nto = 60\nstep = 1", "spectrum = true", '"1"', '"rad/s"', '"angle"', '"time"')):
+            self.write(text.encode(), "effects/e.toml")
+            self.sound()
+
+    def test_the_rewrites_of_the_docs_are_sound(self):
+        page = (SOURCE / "docs/discover.md").read_text(encoding="utf-8")
+        texts = re.findall(r"```toml-rewrite\n(.*?)```", page, flags=re.DOTALL)
+        self.assertEqual([re.search(r'kind = "(\w+)"', text)[1] for text in texts], ["replace", "transform_signal", "add_state", "free_constant"])
+        for text in texts:
             self.write(text.encode(), "effects/e.toml")
             self.sound()
 
@@ -379,19 +500,22 @@ class Malformed(ModelCase):
 
     def test_every_key_is_in_the_table_of_the_docs(self):
         """The reader's own lists, as it says them when a key is unknown."""
-        text = "none = 1\n" + re.sub(r"(\[enters\]|\[rewrite\]|\[\[parameter\]\]|\[\[rival\]\])\n", r"\1\nnone = 1\n", FRICTION) + "[[scan]]\nnone = 1\n"
-        self.write(text.encode(), "effects/e.toml")
-        said = re.findall(r"e\.toml:(\d+):\d+: error: unknown key 'none'; keys here: (.*)", self.answer()[2])
-        lines = text.splitlines()
-        sections = {"top" if number == "1" else lines[int(number) - 2]: set(keys.split(", ")) for number, keys in said}
-        self.assertEqual(set(sections), {"top", "[enters]", "[rewrite]", "[[parameter]]", "[[scan]]", "[[rival]]"})
+        sections = {}
+        for effect in (FRICTION + "[[scan]]\n", LAG, VALUE):
+            text = "none = 1\n" + re.sub(r"(\[(enters|rewrite|\[\w+\])\])\n", r"\1\nnone = 1\n", effect)
+            self.write(text.encode(), "effects/e.toml")
+            said = re.findall(r"e\.toml:(\d+):\d+: error: unknown key 'none'; keys here: (.*)", self.answer()[2])
+            lines = text.splitlines()
+            for number, keys in said:
+                sections.setdefault("top" if number == "1" else lines[int(number) - 2], set()).update(keys.split(", "))
+        self.assertEqual(set(sections), {"top", "[enters]", "[rewrite]", "[[edit]]", "[[state]]", "[[parameter]]", "[[scan]]", "[[rival]]"})
         documented = {}
         page = (SOURCE / "docs/discover.md").read_text(encoding="utf-8").split("## Every key of an effect file")[1]
         where = ""
         for row in re.findall(r"^\|([^|]*)\|([^|]*)\|", page, flags=re.MULTILINE)[2:]:
             where = row[0].strip("` ") or where
             documented.setdefault(where, set()).update(re.findall(r"`(\w+)`", row[1]))
-        tables = {"enters", "roles", "rewrite", "parameter", "scan", "rival"}   # have rows of their own
+        tables = {"enters", "roles", "rewrite", "edit", "state", "parameter", "scan", "rival"}   # have rows of their own
         self.assertEqual(documented.pop("top"), sections.pop("top") - tables)
         documented.pop("[roles]", None)   # holds names
         self.assertEqual(documented, sections)

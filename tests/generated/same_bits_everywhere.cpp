@@ -175,6 +175,19 @@ TEST_CASE("same bits: derivatives inside nonlinearities, limits, an offset") {
     }
 }
 
+TEST_CASE("same bits: delays by whole samples and by parts, of several signals, in late and in decimated models, with noise") {
+    const std::string late = plants::changed(friction, {{"sgn(der(q))*", "sgn(der(q))*delay(x, 0.0035)*"}, {"= force", "= delay(force, 0.002)"}, {"unit = \"N\", initial = 20", "unit = \"N/m\", initial = 20"}});
+    const std::string several = plants::changed(functions, {{"cos(b)", "cos(delay(b, 0.0071))"}, {"tan(half*c)", "tan(half*delay(c, 0.001))"}, {"a^3*b", "a^3*delay(b, 4e-4)"}});
+    const std::string decimated = plants::changed(several, {{"period = 1e-3", "period = 1e-3\ndecimate = 4"}});
+    const std::string noisy = plants::changed(plants::changed(several, {{"b = { unit = \"1\"", "b = { unit = \"1\", noise = 0.01"}, {"rows = 3", "rows = 2"}, {"rows = 3", "rows = 2"}}),
+                                              {{"solve = \"least_squares\"\nforgetting = 0.999", "solve = \"square\""}});
+    std::size_t turn = 0;
+    for (const std::string& text : {late, several, decimated, noisy}) {
+        compare<double>(text, compilers[turn++ % compilers.size()]);
+        compare<float>(text, compilers[turn++ % compilers.size()]);
+    }
+}
+
 TEST_CASE("same bits: noise, perturbations, whitened rows, deviation limit, ratio filter, decimation, form 2") {
     const std::vector<std::pair<std::string, std::string>> noisy{{"y = { unit = \"m\" }", "y = { unit = \"m\", noise = 0.01 }"},
                                                                  {"u = { unit = \"N\" }", "u = { unit = \"N\", noise = 0.02 }"},

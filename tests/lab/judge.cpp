@@ -33,7 +33,7 @@ Variant at(const Variant& v, double gap) {
     out.score = {};
     out.score.error = {gap};
     out.score.floor = {1};
-    out.score.rows = 1000;
+    out.score.rows = {1000};
     out.score.independent = {1000};
     out.score.nrmse = 0.001 * gap;
     return out;
@@ -105,7 +105,7 @@ TEST_CASE("verdict: beyond twice the noise nothing added is none only where the 
     for (const double share : {0.71, 0.69}) {   // of the rows, that count as independent: 0.7 is the limit
         for (const double gap : {1.99, 2.01}) {
             Variant nominal = at(*w.nominal, gap);
-            nominal.score.independent = {share * nominal.score.rows};
+            nominal.score.independent = {share * nominal.score.rows[0]};
             Selection selection = selected(nominal);
             selection.evidence.push_back({"effect", "e", "-c", 10, 0, 0, false, false, 1});
             CHECK(lab::judge(*w.bench, nominal, selection) == (share < 0.7 && gap > 2 ? Verdict::unknown : Verdict::none));

@@ -62,23 +62,24 @@ struct Scene {
     void fill(std::size_t samples, std::size_t outputs) {
         const double end = 1e-3 * static_cast<double>(samples - 1);
         d.verdict = Verdict::named;
+        d.recordings.resize(1);
         d.effects = {{"coulomb_friction", "e0 <\"&'>", "-Tc*sgn(i_0)", "dry & dull <friction>", "it jumps", {{"Tc", "N.m", 0.0120034, 0.0001}, {"Ncog", "1", 4, 0}, {"far", "", 1, infinity}}}};
         d.alternatives = {{"coulomb_friction"}, {"constant_load", "viscous_friction"}};
         d.experiments = {"reverse <the> motion"};
         d.doubts = {"the noise may be wrong & so may this"};
         d.where = {{"e0", 0.9, 0, 1, "follows the sign of i_0"}, {"e1", 0.1, 0, 1, "no single signal explains it"}};
         d.evidence = {{"coulomb_friction", "e0", "-Tc*sgn(i_0)", 1234, 0.004, 56, true, false, 1}, {"constant_load", "e0", "-T", 12, 0.02, 5, false, true, 1}, {"viscous_friction", "e0", "-b*i_0", 11, nan_value, nan_value, false, false, 1}};
-        for (std::size_t s = 0; s < outputs; ++s) d.outputs.push_back({fmt::format("i_{}", s), 0.2, 0.0101, 0.01});
+        for (std::size_t s = 0; s < outputs; ++s) d.recordings[0].outputs.push_back({fmt::format("i_{}", s), 0.2, 0.0101, 0.01});
         d.parameters_before = {{"R", "ohm", 1.23456, 0.012}, {"L", "H", 2e-5, 3e-7}};
         d.parameters_after = {{"R", "ohm", 1.1, 0.001}, {"L", "H", 2.1e-5, 1e-7}, {"Tc", "N.m", 0.0120034, 0.0001}};
-        d.before.signals.resize(outputs + 1);
-        d.after.signals.resize(outputs + 1);
+        d.recordings[0].before.signals.resize(outputs + 1);
+        d.recordings[0].after.signals.resize(outputs + 1);
         for (std::size_t s = 0; s < outputs; ++s) {
             lab::EquationResidual r{fmt::format("e{}", s), s == 0 ? "" : "V", {}, {}, {}, 0.01, fmt::format("i_{}", s), "A", {}, {}};
             for (std::size_t row = 0; row < samples; ++row) {
                 const double y = value(row, s);
-                d.before.signals[s + 1].push_back(y + 0.2 * std::sin(0.03 * static_cast<double>(row)));
-                d.after.signals[s + 1].push_back(y + 0.01 * std::sin(7e3 * static_cast<double>(row)));
+                d.recordings[0].before.signals[s + 1].push_back(y + 0.2 * std::sin(0.03 * static_cast<double>(row)));
+                d.recordings[0].after.signals[s + 1].push_back(y + 0.01 * std::sin(7e3 * static_cast<double>(row)));
                 if (row % 8 != 0) continue;
                 r.t.push_back(1e-3 * static_cast<double>(row));
                 r.x.push_back(y);
@@ -88,14 +89,14 @@ struct Scene {
             }
             d.residuals.push_back(std::move(r));
         }
-        d.before.samples = d.after.samples = samples;
-        d.train_from_s = 0;
-        d.train_to_s = d.test_from_s = 0.7 * end;
-        d.test_to_s = end;
+        d.recordings[0].before.samples = d.recordings[0].after.samples = samples;
+        d.recordings[0].train_from_s = 0;
+        d.recordings[0].train_to_s = d.recordings[0].test_from_s = 0.7 * end;
+        d.recordings[0].test_to_s = end;
     }
 
     std::string page(const lab::Draw& draw) {
-        return lab::report_html(d, model, recording, {"my model.toml", "run.csv", "found", "found/my model.toml", "found/m.patch", "--- m\n+++ m\n@@ -1 +1 @@\n-a < b\n+a > b\n"}, draw, diagnostics);
+        return lab::report_html(d, model, recording, {"my model.toml", {"run.csv"}, "found", "found/my model.toml", "found/m.patch", "--- m\n+++ m\n@@ -1 +1 @@\n-a < b\n+a > b\n"}, draw, diagnostics);
     }
 
     test::TemporaryFolder folder;
@@ -138,8 +139,9 @@ TEST_CASE("report: a discovery that holds nothing still makes a page") {
     Scene scene(3000, 1);
     for (const Verdict verdict : {Verdict::named, Verdict::ambiguous, Verdict::none, Verdict::unknown}) {
         scene.d = Discovery{};
+        scene.d.recordings.resize(1);
         scene.d.verdict = verdict;
-        const std::string page = lab::report_html(scene.d, scene.model, scene.recording, {}, lab::gnuplot, scene.diagnostics);
+        const std::string page = lab::report_html(scene.d, scene.model, scene.recording, {"", {""}, "", "", "", ""}, lab::gnuplot, scene.diagnostics);
         CHECK(count(page, "<h2>") == 10);
         CHECK(count(page, "<svg") == 0);
     }
@@ -152,11 +154,11 @@ TEST_CASE("report: series of one point, of none finite, and runs that end early 
     scene.d.residuals[0].before.resize(1);
     for (double& v : scene.d.residuals[1].before) v = nan_value;
     for (double& v : scene.d.residuals[1].x) v = infinity;
-    scene.d.before.signals[1].resize(2500);
-    scene.d.before.signals[1][2400] = 1e30;
-    scene.d.before.signals[2].resize(10);   // nothing of it in the test stretch
-    scene.d.outputs[1].floor = 0;
-    scene.d.outputs[1].before = infinity;
+    scene.d.recordings[0].before.signals[1].resize(2500);
+    scene.d.recordings[0].before.signals[1][2400] = 1e30;
+    scene.d.recordings[0].before.signals[2].resize(10);   // nothing of it in the test stretch
+    scene.d.recordings[0].outputs[1].floor = 0;
+    scene.d.recordings[0].outputs[1].before = infinity;
     const std::string page = scene.page(lab::gnuplot);
     for (const Diagnostic& diagnostic : scene.diagnostics.sorted()) UNSCOPED_INFO(diagnostic.text());
     CHECK(scene.diagnostics.sorted().empty());

@@ -131,10 +131,57 @@ TEST_CASE("roles: a speed that moves at second order is no speed of a force bala
     CHECK(of("position", jerk, 1) == Texts{});
 }
 
+/// A machine in its rotor's frame, with a shaft.
+const model::Model& geared() {
+    static const model::Model m = model_of(R"toml([signals]
+vd = { unit = "V" }
+vq = { unit = "V" }
+id = { unit = "A" }
+iq = { unit = "A" }
+w = { unit = "rad/s" }
+th = { unit = "rad" }
+load = { unit = "rad" }
+[constants]
+pairs = { value = 4, unit = "1" }
+flux = { value = 0.03, unit = "Wb" }
+[parameters]
+R = { unit = "ohm", initial = 1 }
+L = { unit = "H", initial = 0.1 }
+J = { unit = "kg.m^2", initial = 1 }
+k = { unit = "N.m/rad", initial = 1 }
+[[equation]]
+ode = "L*der(id) = vd - R*id + pairs*w*L*iq"
+[[equation]]
+ode = "L*der(iq) = vq - R*iq - pairs*w*L*id - pairs*w*flux"
+[[equation]]
+ode = "J*der(w) = 1.5*pairs*flux*iq - k*(th - load)"
+[[equation]]
+ode = "der(th) = w"
+)toml");
+    return m;
+}
+
+TEST_CASE("roles: quantities, differences and constants as they stand in an equation") {
+    CHECK(of("leading", geared(), 0) == Texts{"L"});
+    CHECK(of("leading", geared(), 2) == Texts{"J"});
+    CHECK(of("leading", geared(), 3) == Texts{});
+    CHECK(of("factor", geared(), 1) == Texts{"R"});
+    CHECK(of("difference", geared(), 2) == Texts{"(load-th)"});
+    CHECK(of("difference", geared(), 0) == Texts{});
+    CHECK(of("constant", geared(), 1) == Texts{"flux"});   // nobody is wrong about a number of poles
+    CHECK(of("constant", geared(), 0) == Texts{});
+    CHECK(of("actuator", geared(), 0) == Texts{"vd"});
+    CHECK(of("drive", geared(), 2) == Texts{"iq"});
+    CHECK(of("sensor", geared(), 2) == Texts{"w"});
+    CHECK(of("pole_pairs", geared(), 0) == Texts{"pairs"});
+    CHECK(of("rotor_speed", geared(), 0) == Texts{"w"});
+    CHECK(of("q_current", geared(), 1) == Texts{});        // seen from the d equation
+}
+
 TEST_CASE("roles: every kind that a file may name stands for something somewhere") {
     for (const lab::RoleKind& kind : lab::role_kinds()) {
         bool found = false;
-        for (const model::Model* m : {&motor(), &cart()}) for (std::size_t e = 0; e < m->equations.size(); ++e) {
+        for (const model::Model* m : {&motor(), &cart(), &geared()}) for (std::size_t e = 0; e < m->equations.size(); ++e) {
             for (const lab::Filler& f : lab::fillers(kind.name, *m, e, std::vector<bool>(m->signals.size(), true))) {
                 found = true;
                 const auto unit = units::Unit::parse(f.unit);

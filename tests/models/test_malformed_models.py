@@ -597,8 +597,9 @@ DELAYS = [
     ("delay with a negative bound", changed(PLAIN, "a*x + b*u", "a*x + delay(u, ▸b)", "b = {}", "b = { min = -1 }"), "give the parameter min = 0"),
     ("delay by a pure number", coil_ode("L*der(i) = delay(v, ▸gain) - R*i"), "the time of a delay has the unit [1]"),
     ("delay in milliseconds", coil("gain*v", "delay(v, ▸gain)", 'value = 2, unit = "1"', 'value = 2, unit = "ms"'), "declare it in s"),
+    ("delay of eleven thousand samples", ode("der(x) = a*x + b*▸delay(u, 11)"), "more than 10000 sampling periods"),
     ("sum of a delayed voltage and a current", coil_ode("L*der(i) = delay(v, 2) - ▸i - R*i"), "differ in dimension"),
-    ("signal named delay", coil("v = {", "▸delay = {", "gain*v", "▸gain"), "'delay' is a function"),
+    ("signal named delay", coil("v = {", "▸delay = {", "gain*v - R*i", "gain - ▸R*i"), "'delay' is a function"),
 ]
 
 TRANSFERS = [

@@ -146,6 +146,22 @@ ode = "M*der(q,2) + Fv*der(q) + Fc*sgn(der(q)) = force"
     for (std::size_t p = 0; p < 3; ++p) CHECK(estimator.deviation()[p] == Approx(std::sqrt(variance[p])).epsilon(1e-4));   // square: exact but for the steps
 }
 
+TEST_CASE("uncertainty() of a delayed signal is what changing every sample gives, those before the window included") {
+    // A square solve has no residual at its own estimate, whatever the samples: exact but for the second order of the steps.
+    for (const char* delay : {"delay(w, 0.004)", "delay(w, 0.0043)", "(w + delay(w, 0.002))"}) {
+        INFO(delay);
+        const plan::Plan plan = plan_of(changed(coil(""), {{"K*w*", std::string("K*") + delay + "*"}}));
+        const int count = plan.samples_to_first_estimate();
+        CHECK(count == 31 + plan.delay_length());
+        lab::HostEstimator<double> estimator(plan);
+        for (int k = 0; k < count; ++k) estimator.step(coil_sample(k).data());
+        REQUIRE(estimator.status() == Status::ok);
+        REQUIRE(estimator.uncertainty() == Status::ok);
+        const auto wanted = by_every_sample(plan, count);
+        for (std::size_t p = 0; p < wanted.size(); ++p) CHECK(estimator.deviation()[p] == Approx(wanted[p]).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("the bias that noisy regressors cause is the mean error over many seeds") {
     for (const char* solve : {"", "solve = \"robust\"\nsolve_window = 0.02\n"}) {
         const plan::Plan plan = plan_of(changed(coil(solve), {{"noise = 1e-3", "noise = 6e-3"}, {"noise = 0.2", "noise = 0.4"}}));

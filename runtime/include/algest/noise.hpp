@@ -16,7 +16,7 @@ struct NoiseChannel {
     std::uint16_t input;     ///< which noisy raw signal
     std::uint16_t signal;    ///< window signal
     std::uint16_t partial;   ///< ring of the partial derivative; no_partial: constant
-    std::uint16_t lag;       ///< 0 or 1
+    std::uint16_t lag;       ///< 0; 1 in a model one sample late; more where the signal is delayed
     S factor;
 };
 constexpr std::uint16_t no_partial = 0xFFFF;
@@ -28,8 +28,18 @@ struct Noise {
     View<NoiseChannel<S>> channels;
 };
 
+/// The largest lag of all channels, 1 at least: so many raw samples before a window may enter it.
+template <class S>
+inline int largest_lag(const Noise<S>& noise) noexcept {
+    int out = 1;
+    for (const NoiseChannel<S>& channel : noise.channels) {
+        if (channel.lag > out) out = channel.lag;
+    }
+    return out;
+}
+
 /// Writes the change of the rows [P|Q] (matrix, as evaluate_rows) when raw sample `sample` of the window at `at` is one standard deviation
-/// of `input` too large; sample may be -1 for what enters one sample late. Cost: channels of the input x functionals.
+/// of `input` too large; sample may be as low as -largest_lag for what enters late. Cost: channels of the input x functionals.
 template <class S>
 inline void noise_in_rows(const RowSet<S>& set, const Noise<S>& noise, const S* rings, WindowPosition at, int input, int sample, S* matrix) noexcept {
     const int entries = set.rows * (set.unknowns + 1);

@@ -67,14 +67,15 @@ inline void propagate_noise(const RowSet<S>& set, const Noise<S>& noise, const S
         for (int u = 0; u < n; ++u) bias[u] = pending[u] = S(0);
     }
     const int span = set.samples + (instants < 1 ? 0 : instants - 1);
-    for (int k = -1; k < span; ++k) {
+    const int before = largest_lag(noise);
+    for (int k = -before; k < span; ++k) {
         for (int s = 0; s < noise.inputs; ++s) {
             for (int i = 0; i < n * width; ++i) reach[i] = S(0);
             for (int u = 0; u < n; ++u) normal[u] = S(0);
             for (int m = 0; m < node_count(instants); ++m) {
                 const Node at = node(m, instants);
                 const int sample = k - at.start;
-                if (sample < -1 || sample >= set.samples) continue;
+                if (sample < -before || sample >= set.samples) continue;
                 const int start = oldest.start + at.start;
                 noise_in_rows(set, noise, rings, WindowPosition{oldest.length, start >= oldest.length ? start - oldest.length : start}, s, sample, change);
                 if (by.factor != nullptr) whiten(by.factor, change, set.rows, width);

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Effects that are more than a term: each kind of rewrite, taught by the file that docs/discover.md shows and found in a recording made here
+by a simulator of its own. A file with the name of one of the library's takes its place, so that it is the file beside the model that acts."""
+import random
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+from environment import SOURCE
+from gap.discovery import discover, names, show, values
+from gap.hidden_plants import MOTOR, run
+
+PAGE = (SOURCE / "docs/discover.md").read_text(encoding="utf-8")
+TAUGHT = {re.search(r'kind = "(\w+)"', text)[1]: text for text in re.findall(r"```toml-rewrite\n(.*?)```", PAGE, flags=re.DOTALL)}
+
+# A mass behind a spring whose other end is moved; half of the play is 2 mm.
+PUSHED = """\
+name = "pushed"
+[sampling]
+period = 1e-3
+[signals]
+r = { unit = "m", hold = "zoh" }
+x = { unit = "m", noise = 2e-5, initial = 0 }   # of the mass
+[constants]
+m = { value = 1, unit = "kg" }
+[parameters]
+k = { unit = "N/m", initial = 300, min = 0 }
+c = { unit = "N.s/m", initial = 3, min = 0 }
+[[equation]]
+name = "force balance"
+ode = "m*der(x,2) = k*(r - x) - c*der(x)"
+"""
+PLAY = 2e-3
+
+
+def pushed():
+    dice = random.Random(3)
+    pull = lambda z: z - PLAY if z > PLAY else z + PLAY if z < -PLAY else 0.0
+    return run(lambda s, r: [s[1], 400.0 * pull(r - s[0]) - 4.0 * s[1]], [0.0, 0.0], lambda k: dice.uniform(-0.02, 0.02) if k % 150 == 0 else None,
+               lambda s: (s[0] + dice.gauss(0, 2e-5),), "t [s],r [m],x [m]", 4000)
+
+
+def motor(lag=0.0, delay=0):
+    """R = 1, L = 0.002, K = 0.05, J = 2.5e-4, b = 2e-4; what reaches the winding lags, or comes `delay` samples late."""
+    dice = random.Random(5)
+    commands = [0.0]
+
+    def command(k):
+        commands.append(dice.uniform(-8, 8) if k % 120 == 0 else commands[-1])
+        return commands[-1]
+
+    def rate(s, u):
+        reached = s[2] if lag else commands[max(len(commands) - 1 - delay, 1)]
+        return [(reached - s[0] - 0.05 * s[1]) / 0.002, (0.05 * s[0] - 2e-4 * s[1]) / 2.5e-4, (u - s[2]) / (lag or 1.0)]
+
+    return run(rate, [0.0, 0.0, 0.0], command, lambda s: (s[0] + dice.gauss(0, 0.005), s[1] + dice.gauss(0, 0.1)), "t [s],u [V],i [A],w [rad/s]", 4000)
+
+
+class Rewrites(unittest.TestCase):
+    def discover(self, model, recording, kind=None, library=None):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            (folder / "m.toml").write_text(model, encoding="utf-8")
+            (folder / "m.csv").write_text(recording, encoding="utf-8")
+            if kind:
+                (folder / "effects").mkdir()
+                (folder / "effects/e.toml").write_text(re.sub(r'name = "\w+"', f'name = "{library}"', TAUGHT[kind], count=1), encoding="utf-8")
+            found = discover(folder / "m.toml", folder / "m.csv", folder / "out")
+            show(str(kind), found)
+            amended = Path(found["model"]).read_text(encoding="utf-8") if found["model"] else ""
+            return found, amended
+
+    def at_the_floor(self, found):
+        for o in found["outputs"]:
+            self.assertLess(o["nrmse_after"] / o["noise_floor"], 1.2, o)   # the bar of the open cases
+
+    def test_what_is_replaced(self):
+        found, amended = self.discover(PUSHED, pushed(), "replace", "backlash")
+        self.assertEqual((found["verdict"], names(found)), ("named", ["backlash"]))
+        self.assertAlmostEqual(values(found)["play"], PLAY, delta=0.05 * PLAY)   # the bar of the open cases for strengths
+        self.at_the_floor(found)
+        # The rest of the line, and the comment of another, are as they were; a scanned number is a constant.
+        self.assertIn('ode = "m*der(x,2) = k*(max((r-x) - play,0) + min((r-x) + play,0)) - c*der(x)"\n', amended)
+        self.assertIn("initial = 0 }   # of the mass\n", amended)
+        self.assertRegex(amended, r'\[constants\]\nm = .*\nplay = \{ value = 0.00\d+, unit = "m" \} ')
+
+    def test_a_state_is_added(self):
+        found, amended = self.discover(MOTOR.format(name="m"), motor(lag=5e-3), "add_state", "actuator_lag")
+        self.assertEqual((found["verdict"], names(found)), ("named", ["actuator_lag"]))
+        self.assertEqual(found["effects"][0]["equation"], "voltage balance")
+        self.assertAlmostEqual(values(found)["tau"], 5e-3, delta=0.05 * 5e-3)
+        self.at_the_floor(found)
+        self.assertIn('ode = "L*der(i) = opening - R*i - K*w"   # copper, back EMF\n', amended)
+        self.assertIn('ode = "tau*der(opening) = u - opening"\n', amended)
+
+    def test_an_input_comes_late(self):
+        found, amended = self.discover(MOTOR.format(name="m"), motor(delay=6))
+        self.assertEqual((found["verdict"], names(found)), ("named", ["input_delay"]))
+        self.assertAlmostEqual(values(found)["dead_time"], 6e-3, delta=0.05 * 6e-3)
+        self.at_the_floor(found)
+        self.assertIn('ode = "L*der(i) = delay(u, dead_time) - R*i - K*w"   # copper, back EMF\n', amended)
+
+    def test_a_wrong_constant_and_a_wrong_sensor_are_the_same_without_an_angle(self):
+        wrong = MOTOR.format(name="m").replace("K = { value = 0.05,", "K = { value = 0.052,")
+        for kind, library in (("transform_signal", "sensor_gain"), ("free_constant", "parameter_error")):
+            with self.subTest(kind):
+                found, amended = self.discover(wrong, motor(), kind, library)
+                self.assertEqual(found["verdict"], "ambiguous")
+                self.assertEqual(sorted(found["alternatives"]), [["parameter_error"], ["sensor_gain"]])
+                self.assertTrue(any("second sensor" in e for e in found["experiments"]), found["experiments"])
+                self.at_the_floor(found)
+                places = {"parameter_error": "K", "sensor_gain": "torque balance"}
+                self.assertEqual(found["effects"][0]["equation"], places[names(found)[0]])
+
+
+if __name__ == "__main__":
+    unittest.main()
