@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -35,8 +36,15 @@ ordered_json pairs(const std::vector<std::complex<double>>& values) {
 }
 
 /// What a discrete-time estimator's last values say; nothing where none was ok.
+std::optional<lab::DiscreteSystem> system_of(const plan::Plan& plan, const lab::ReplaySummary& summary) {
+    if (!plan.discrete || !summary.condition_last) return std::nullopt;
+    std::vector<double> last;
+    for (const std::optional<double> value : summary.last) last.push_back(value.value_or(std::nan("")));
+    return lab::discrete_system(plan, last);
+}
+
 void add_system(const plan::Plan& plan, const lab::ReplaySummary& summary, ordered_json& out) {
-    const auto system = summary.condition_last ? lab::discrete_system(plan, summary.last) : std::nullopt;
+    const auto system = system_of(plan, summary);
     out["poles_s"] = system ? pairs(system->poles_s) : ordered_json(nullptr);
     if (!system) return;
     out["poles_z"] = pairs(system->poles_z);
@@ -73,7 +81,7 @@ std::string number_text(std::optional<double> value) { return value ? fmt::forma
 
 /// Continuous-time poles, one a line.
 std::string poles_text(const plan::Plan& plan, const lab::ReplaySummary& summary) {
-    const auto system = summary.condition_last ? lab::discrete_system(plan, summary.last) : std::nullopt;
+    const auto system = system_of(plan, summary);
     std::string out = system ? "\npoles [rad/s]\n" : "";
     for (const std::complex<double> s : system ? system->poles_s : std::vector<std::complex<double>>()) out += fmt::format("{:>12.6g}  {:>+12.6g} i\n", s.real(), s.imag());
     return out;
