@@ -71,6 +71,7 @@ struct BlueprintData {
     std::vector<algest::NoiseChannel<S>> noise;
     std::vector<S> whiten_at;
     algest::LowPass<S> ratio;
+    bool normalise;
 
     /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
     algest::Blueprint<S> view() const {
@@ -84,7 +85,8 @@ struct BlueprintData {
                 deviation_limit,
                 {whiten_at.data(), static_cast<int>(whiten_at.size())},
                 ratio,
-                row_set(perturbation)};
+                row_set(perturbation),
+                normalise};
     }
 
 private:
@@ -118,7 +120,8 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
                           {},
                           {},
                           {},
-                          {}};
+                          {},
+                          plan.normalise};
     data.tables.reserve(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
     for (const Table& table : plan.tables) {
         for (const double weight : table.weights) data.tables.push_back(static_cast<S>(weight));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "generator/annihilator.hpp"
+#include "generator/discrete_derivation.hpp"
 #include "generator/exact.hpp"
 #include "generator/formula.hpp"
 #include "generator/generate.hpp"
@@ -268,6 +269,7 @@ Data rows_data(const Plan& plan, const std::vector<plan::Row>& of) {
 }  // namespace
 
 std::string derivation_text(const Plan& plan) {
+    if (plan.discrete) return discrete_derivation_text(plan, solve_text(plan));
     Data d = common(plan);
     d.set("summary", plan.summary);
     d.set("has_summary", !plan.summary.empty());
@@ -306,6 +308,7 @@ std::string derivation_text(const Plan& plan) {
 }
 
 std::string derivation_latex(const Plan& plan) {
+    if (plan.discrete) return discrete_derivation_latex(plan);
     Data d = common(plan);
     std::string name_tex;
     for (const char c : plan.name) name_tex += c == '_' ? std::string("\\_") : std::string(1, c);
@@ -351,6 +354,7 @@ std::string derivation_latex(const Plan& plan) {
 }
 
 std::string derivation_json(const Plan& plan, bool weights) {
+    if (plan.discrete) return discrete_derivation_json(plan, solve_text(plan), weights);
     using Json = nlohmann::ordered_json;
     Json out;
     out["name"] = plan.name;

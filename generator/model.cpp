@@ -42,9 +42,7 @@ void read_sections(const toml::table& root, Reading& reading) {
     read_constants(root, reading);
     read_parameters(root, reading);
     read_estimator(root, reading);
-    if (const toml::node* discrete = root.get("discrete")) {
-        file.error(*discrete, "[discrete] is not supported by this version", "use functional = \"annihilator\"");
-    }
+    read_discrete(root, reading);
     read_equations(root, reading);
     read_feedback(root, reading);
     if (!root.contains("signals")) file.error(Position{1, 1}, "no [signals]", "declare what is measured: y = { unit = \"rad\" }");

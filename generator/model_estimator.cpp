@@ -56,8 +56,8 @@ void check_noise(const toml::table& t, Reading& reading) {
 /// Complains about what a model may say and this version cannot do.
 void check_support(const toml::table& t, Reading& reading) {
     const Estimator& e = reading.model.estimator;
-    if (e.functional != Functional::annihilator) {
-        reading.file.error(*t.get("functional"), "this functional is not supported by this version", "use functional = \"annihilator\"");
+    if (e.functional != Functional::annihilator && e.functional != Functional::discrete) {
+        reading.file.error(*t.get("functional"), "this functional is not supported by this version", "use functional = \"annihilator\" or \"discrete\"");
     }
     if (e.solve == Solver::elimination) {
         reading.file.error(*t.get("solve"), "elimination is not supported by this version", "use square, robust or least_squares");

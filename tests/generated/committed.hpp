@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "generated/dc_motor/dc_motor.hpp"
+#include "generated/drive_train/drive_train.hpp"
+#include "generated/drive_train_zeros/drive_train_zeros.hpp"
 #include "generated/magnetic_bearing/magnetic_bearing.hpp"
 #include "generated/pendulum/pendulum.hpp"
 #include "generated/pmsm_electrical/pmsm_electrical.hpp"
@@ -16,7 +18,8 @@
 #include "generated/rl_circuit/rl_circuit.hpp"
 
 #define ALGEST_COMMITTED                                                                         \
-    algest::generated::DcMotor, algest::generated::MagneticBearing, algest::generated::Pendulum, \
+    algest::generated::DcMotor, algest::generated::DriveTrain, algest::generated::DriveTrainZeros, \
+        algest::generated::MagneticBearing, algest::generated::Pendulum,                         \
         algest::generated::PmsmElectrical, algest::generated::PositioningAxis, algest::generated::RlCircuit
 
 namespace algest::test {
@@ -26,6 +29,10 @@ template <class Class>
 constexpr const char* model = nullptr;
 template <>
 inline constexpr const char* model<generated::DcMotor> = "dc_motor";
+template <>
+inline constexpr const char* model<generated::DriveTrain> = "drive_train";
+template <>
+inline constexpr const char* model<generated::DriveTrainZeros> = "drive_train_zeros";
 template <>
 inline constexpr const char* model<generated::MagneticBearing> = "magnetic_bearing";
 template <>
