@@ -49,7 +49,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor) {
-        if ((best.score.gap() > too_far_for_noise || structured(bench, best)) && !white(best.score)) return Verdict::unknown;
+        if ((best.score.gap() > too_far_for_noise && !white(best.score)) || structured(bench, best)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
