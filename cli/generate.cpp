@@ -20,41 +20,40 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A model that was asked for and could be planned.
-struct Planned {
+/// A model that was asked for and could be generated.
+struct Made {
     std::string model;
-    plan::Plan plan;
+    generator::Generated generated;
 };
 
-/// Plans every model; those that fail tell `outcome`. Two estimators of one name would share files: then there are none.
-std::vector<Planned> plan_all(const GenerateOptions& options, Outcome& outcome) {
+/// Generates every model; those that fail tell `outcome`. Two of one name would share files: then there are none.
+std::vector<Made> make_all(const GenerateOptions& options, Outcome& outcome) {
     const generator::PlanOptions plan_options{options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64,
                                               options.engine};
-    std::vector<Planned> out;
+    std::vector<Made> out;
     std::map<std::string, std::string> model_of_name;
     bool names_differ = true;
     for (const std::string& model : options.models) {
         Diagnostics diagnostics;
-        auto plan = generator::plan_from_model(model, plan_options, diagnostics);
-        if (plan) {
-            const auto [first, is_new] = model_of_name.emplace(plan->name, model);
+        auto generated = generator::generate(model, plan_options, diagnostics);
+        if (generated) {
+            const auto [first, is_new] = model_of_name.emplace(generated->name, model);
             if (!is_new) {
-                diagnostics.error(model, {}, "its name is `" + plan->name + "`, that of " + first->second + " too",
+                diagnostics.error(model, {}, "its name is `" + generated->name + "`, that of " + first->second + " too",
                                   "a `name` of its own for each model");
                 names_differ = false;
             } else if (!options.check) {
-                for (const std::string& text : plan->notes) diagnostics.note(model, text);
+                for (const std::string& text : generated->notes) diagnostics.note(model, text);
             }
-            out.push_back({model, std::move(*plan)});
+            out.push_back({model, std::move(*generated)});
         }
         outcome.take(diagnostics);
     }
-    return names_differ ? std::move(out) : std::vector<Planned>();
+    return names_differ ? std::move(out) : std::vector<Made>();
 }
 
-/// The files of an estimator, with the paths under which they are to lie.
-std::vector<generator::EmittedFile> files_of(const plan::Plan& plan, const std::filesystem::path& directory) {
-    std::vector<generator::EmittedFile> files = generator::emit(plan);
+/// The files with the paths under which they are to lie.
+std::vector<generator::EmittedFile> placed(std::vector<generator::EmittedFile> files, const std::filesystem::path& directory) {
     for (generator::EmittedFile& file : files) file.path = (directory / file.path).string();
     return files;
 }
@@ -111,10 +110,10 @@ ordered_json differences(const std::vector<generator::EmittedFile>& files, bool 
 int generate(const GenerateOptions& options) {
     Outcome outcome;
     ordered_json done = ordered_json::array();
-    for (const Planned& planned : plan_all(options, outcome)) {
+    for (const Made& made : make_all(options, outcome)) {
         Diagnostics diagnostics;
-        const std::vector<generator::EmittedFile> files = files_of(planned.plan, options.directory);
-        ordered_json entry = {{"model", planned.model}, {"name", planned.plan.name}};
+        const std::vector<generator::EmittedFile> files = placed(made.generated.files, options.directory);
+        ordered_json entry = {{"model", made.model}, {"name", made.generated.name}};
         if (options.check) {
             entry["differences"] = differences(files, options.json, diagnostics);
             if (!entry["differences"].empty()) outcome.say_no();

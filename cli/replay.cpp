@@ -120,6 +120,11 @@ int replay(const ReplayOptions& options) {
                           "two instants of the recording's `t`, in s");
         return fail(diagnostics, options.json);
     }
+    if (options.batch && !options.output.empty()) {
+        diagnostics.error("algest replay", {}, "-o writes what an estimator says at every sample, and --batch has one answer", "one of the two");
+        return fail(diagnostics, options.json);
+    }
+    if (options.batch) return replay_batch(options, stretch);
 
     const auto plan = generator::plan_from_model(options.model, {options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64, {}}, diagnostics);
     const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);

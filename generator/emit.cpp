@@ -6,6 +6,7 @@
 #include "algest/boxcar.hpp"
 #include "algest/delay_line.hpp"
 #include "generator/blueprint.hpp"
+#include "generator/cpp_text.hpp"
 #include "generator/exact.hpp"
 #include "generator/generate.hpp"
 #include "generator/plan_hash.hpp"
@@ -21,19 +22,6 @@ namespace {
 
 using plan::Op;
 using plan::Plan;
-
-std::string scalar_name(const Plan& plan) { return plan.scalar == plan::Scalar::float64 ? "double" : "float"; }
-int scalar_bytes(const Plan& plan) { return plan.scalar == plan::Scalar::float64 ? 8 : 4; }
-
-/// A literal of the plan's scalar: hexadecimal, exact.
-std::string literal(double value, const Plan& plan) {
-    return exact::hexadecimal(value) + (plan.scalar == plan::Scalar::float32 ? "f" : "");
-}
-
-std::string limit_literal(double value, const Plan& plan) {
-    if (std::isfinite(value)) return literal(value, plan);
-    return std::string(value < 0 ? "-" : "") + "std::numeric_limits<Scalar>::max()";
-}
 
 std::string solve_name(const Plan& plan) {
     switch (plan.solve) {
@@ -53,8 +41,6 @@ std::string quadrature_name(const Plan& plan) {
     return "?";
 }
 
-std::string unit_text(const std::string& unit) { return unit.empty() ? "unit not declared" : "[" + unit + "]"; }
-
 /// A tape as C++: one constant per operation that computes something, inputs by their names.
 class PrintedTape {
 public:
@@ -70,7 +56,7 @@ public:
             }
             if (o.op == Op::constant) {
                 const bool whole = std::floor(o.value) == o.value && std::abs(o.value) < 1e6;
-                texts_.push_back(whole ? "Scalar(" + std::to_string(static_cast<long>(o.value)) + ")" : literal(o.value, plan));
+                texts_.push_back(whole ? "Scalar(" + std::to_string(static_cast<long>(o.value)) + ")" : literal(o.value, plan.scalar));
                 continue;
             }
             Data line;
@@ -142,12 +128,16 @@ int instance_bytes(const Plan& plan) {
         for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
         bytes += 8;
     }
+    if (plan.longest_wait() > 0) {
+        scalars += (plan.longest_wait() + 1) * static_cast<int>(plan.inputs.size());
+        bytes += 8;
+    }
     if (!plan.past.empty()) {
         scalars += static_cast<int>(plan.delayed_inputs().size()) * plan.delay_length();
         bytes += static_cast<int>(sizeof(DelayProgress));
     }
-    bytes += scalars * scalar_bytes(plan);
-    const int alignment = scalar_bytes(plan);
+    bytes += scalars * scalar_bytes(plan.scalar);
+    const int alignment = scalar_bytes(plan.scalar);
     return (bytes + alignment - 1) / alignment * alignment;
 }
 
@@ -160,7 +150,7 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("has_summary", !plan.summary.empty());
     d.set("source", plan.source);
     d.set("has_source", !plan.source.empty());
-    d.set("scalar", scalar_name(plan));
+    d.set("scalar", scalar_name(plan.scalar));
     d.set("solve", solve_name(plan));
     d.set("quadrature", quadrature_name(plan));
     d.set("hash", hash);
@@ -211,13 +201,13 @@ void set_cost(const Plan& plan, Data& d) {
         const long samples = static_cast<long>(plan.samples()) * node_count(plan.solve_instants);
         const long noisy = static_cast<long>(blueprint.noisy.size());
         d.set("uncertainty_macs", std::to_string(samples * (noisy_terms + noisy * rows * unknowns * (unknowns + 1)) + (square ? macs : macs * node_count(plan.solve_instants))));
-        d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan)));
+        d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan.scalar)));
         d.set("whiten_macs", std::to_string(static_cast<long>(plan.samples()) * (noisy_terms + noisy * rows * (rows + unknowns))));
     }
     d.set("spare", std::to_string(spare_samples));
     d.set("overtaken", std::to_string(square ? spare_samples : published_slots - 1));
     d.set("size", std::to_string(instance_bytes(plan)));
-    d.set("table_bytes", std::to_string(static_cast<int>(plan.tables.size()) * plan.samples() * scalar_bytes(plan)));
+    d.set("table_bytes", std::to_string(static_cast<int>(plan.tables.size()) * plan.samples() * scalar_bytes(plan.scalar)));
     const int first_ok = plan.samples_to_first_estimate();
     d.set("first_ok", std::to_string(first_ok));
     d.set("first_ok_s", exact::decimal(exact::from_text(plan.period_text) * (first_ok - 1)));
@@ -253,21 +243,19 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
     Data d = head(plan, hash);
     set_cost(plan, d);
     d.set("delayed", plan.delayed());
+    d.set("aligned", plan.longest_wait() > 0);
+    d.set("longest_wait", std::to_string(plan.longest_wait()));
+    d.set("differentiates", plan.functional == plan::Functional::derivative);
+    d.set("late", plan.delayed() && plan.functional == plan::Functional::annihilator);
     DataList inputs;
     DataList filters;
     for (const plan::Input& input : plan.inputs) {
-        const bool limited = std::isfinite(input.min) || std::isfinite(input.max);
-        Data i;
-        i.set("name", input.name);
-        i.set("unit", unit_text(input.unit));
-        i.set("limited", limited);
-        i.set("min", std::isfinite(input.min) ? exact::text(exact::from_double(input.min)) : std::string("-inf"));
-        i.set("max", std::isfinite(input.max) ? exact::text(exact::from_double(input.max)) : std::string("inf"));
-        i.set("accepted", limited ? "within(s." + input.name + ", " + limit_literal(input.min, plan) + ", " + limit_literal(input.max, plan) + ")"
-                                  : "std::isfinite(s." + input.name + ")");
+        Data i = input_data(input, plan.scalar);
+        i.set("waits", input.wait > 0);
+        i.set("wait", std::to_string(input.wait));
         inputs.push_back(i);
         if (input.differentiated) {
-            i.set("rate", literal(plan.rate, plan));
+            i.set("rate", literal(plan.rate, plan.scalar));
             filters.push_back(i);
         }
     }
@@ -304,7 +292,7 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
         i.set("name", p.name);
         i.set("unit", unit_text(p.unit) + (p.from == p.name ? "" : (p.perturbation ? ": " : " = ") + p.from));
         i.set("unit_alone", unit_text(p.unit));
-        i.set("initial", literal(p.initial, plan));
+        i.set("initial", literal(p.initial, plan.scalar));
         i.set("value", map.results()[k]);
         parameters.push_back(i);
         if (p.perturbation) continue;
@@ -386,7 +374,7 @@ void set_rows(const Plan& plan, const plan::RowData<double>& rows, const std::st
         Data i;
         i.set("row", std::to_string(term.row));
         i.set("column", std::to_string(term.column));
-        i.set("factor", literal(term.factor, plan));
+        i.set("factor", literal(term.factor, plan.scalar));
         terms.push_back(i);
     }
     d.set(prefix + "terms", listed(terms));
@@ -395,7 +383,7 @@ void set_rows(const Plan& plan, const plan::RowData<double>& rows, const std::st
 
 std::string joined(const std::vector<double>& numbers, const Plan& plan) {
     std::string out;
-    for (const double x : numbers) out += (out.empty() ? "" : ", ") + literal(x, plan);
+    for (const double x : numbers) out += (out.empty() ? "" : ", ") + literal(x, plan.scalar);
     return out;
 }
 
@@ -424,7 +412,7 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
         i.set("signal", std::to_string(c.signal));
         i.set("partial", c.partial == no_partial ? std::string("no_partial") : std::to_string(c.partial));
         i.set("lag", std::to_string(c.lag));
-        i.set("factor", literal(c.factor, plan));
+        i.set("factor", literal(c.factor, plan.scalar));
         i.set("text", plan.inputs[static_cast<std::size_t>(blueprint.noisy[c.input])].name + " in " + plan.window_signals[c.signal].text);
         channels.push_back(i);
     }
@@ -432,9 +420,9 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
     d.set("noise_count", std::to_string(blueprint.noise.size()));
     d.set("noisy_inputs", std::to_string(blueprint.noisy.size()));
     d.set("whiten_at", joined(blueprint.whiten_at, plan));
-    d.set("keep", literal(plan.keep, plan));
-    d.set("condition_limit", literal(plan.condition_limit, plan));
-    d.set("deviation_limit", literal(plan.deviation_limit, plan));
+    d.set("keep", literal(plan.keep, plan.scalar));
+    d.set("condition_limit", literal(plan.condition_limit, plan.scalar));
+    d.set("deviation_limit", literal(plan.deviation_limit, plan.scalar));
     d.set("ratio_numbers", plan.ratio ? "{true, {" + joined(plan.ratio->transition, plan) + "}, {" + joined(plan.ratio->before, plan) + "}, {" + joined(plan.ratio->now, plan) + "}}"
                                       : std::string("{false, {}, {}, {}}"));
     return with_weights(render("cpp/tables.hpp.mustache", d), plan);

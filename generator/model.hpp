@@ -28,6 +28,7 @@ struct Signal {
     std::optional<Rational> min;
     std::optional<Rational> max;
     bool scored = true;
+    int lag = 0;                      ///< periods by which its sensor is late; estimators let the other signals wait
 };
 
 struct Constant {
@@ -95,6 +96,15 @@ struct Estimator {
     Rational zeta = Rational(707) / 1000;   ///< as in 000
     std::string engine = "fir";
     plan::Quadrature quadrature = plan::Quadrature::exact;
+
+    /// True: rows come from [sampling] window. False: from single instants.
+    bool has_window() const { return functional != Functional::derivative; }
+};
+
+/// [filter]: no estimator, a block that filters signals on their own.
+struct Filter {
+    Position at;
+    std::vector<int> signals;   ///< indices, in the order of the file
 };
 
 /// [discrete]: a transfer function in z or q, identified from samples (004).
@@ -141,6 +151,7 @@ struct Model {
     std::vector<Feedback> feedback;
     Estimator estimator;
     std::optional<Discrete> discrete;
+    std::optional<Filter> filter;     ///< then there are no equations and nothing to estimate
 
     const Signal* signal(const std::string& name) const;
     const Constant* constant(const std::string& name) const;
@@ -160,6 +171,7 @@ constexpr int most_intervals = 1000000;
 constexpr int largest_decimation = 10000;
 constexpr int largest_skip = 40;      ///< levels of sums, each a degree more
 constexpr int most_extra_rows = 100;
+constexpr int largest_lag = 1000;
 
 /// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.
 /// With strict, a missing unit is an error instead of a warning.

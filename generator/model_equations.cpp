@@ -143,6 +143,9 @@ void read_estimation(const toml::table& t, Equation& e, Reading& reading) {
     e.rows = read_rows(t, file);
     e.scale = file.positive(t, "scale");
     read_perturbation(t, e, reading);
+    if (reading.model.estimator.has_window()) return;
+    if (e.kappa > 0) file.error(*t.get("kappa"), "kappa is for annihilators, and this functional has none", "write the perturbation as a parameter of its own");
+    if (e.rows.count.value_or(1) > 1 || e.rows.list.size() > 1) file.error(*t.get("rows"), "an equation has one row an instant with this functional", "leave rows out");
 }
 
 void read_equation(const toml::table& t, Reading& reading) {

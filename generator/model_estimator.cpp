@@ -41,6 +41,8 @@ void check_noise(const toml::table& t, Reading& reading) {
         if (!by) return;
         if (e.solve == Solver::least_squares) {
             reading.file.error(*t.get(key), std::string(key) + " is not to be had with least_squares, which keeps no window of what it absorbed", "use square or robust, or leave it out");
+        } else if (e.solve == Solver::robust && !e.has_window()) {
+            reading.file.error(*t.get(key), std::string(key) + " is not to be had with robust rows of single instants", "use solve = \"square\", or leave it out");
         } else if (!noisy) {
             reading.file.error(*t.get(key), std::string(key) + " needs the noise of the sensors", "declare noise = ... for the measured signals, in their unit");
         }
@@ -56,11 +58,24 @@ void check_noise(const toml::table& t, Reading& reading) {
 /// Complains about what a model may say and this version cannot do.
 void check_support(const toml::table& t, Reading& reading) {
     const Estimator& e = reading.model.estimator;
-    if (e.functional != Functional::annihilator && e.functional != Functional::discrete) {
-        reading.file.error(*t.get("functional"), "this functional is not supported by this version", "use functional = \"annihilator\" or \"discrete\"");
+    if (e.functional == Functional::average) {
+        reading.file.error(*t.get("functional"), "this functional is not supported by this version", "use functional = \"annihilator\", \"derivative\" or \"discrete\"");
     }
     if (e.solve == Solver::elimination) {
         reading.file.error(*t.get("solve"), "elimination is not supported by this version", "use square, robust or least_squares");
+    }
+}
+
+/// Complains about what belongs to windows, where rows hold at single instants.
+void check_instants(const toml::table& t, Reading& reading) {
+    const Model& model = reading.model;
+    if (model.estimator.has_window()) return;
+    const auto refuse = [&](Position at, const std::string& what) { reading.file.error(at, what + ", and this functional has rows of single instants", "leave it out"); };
+    if (model.window) refuse(model.window_at, "a window is for integrals");
+    if (model.decimate > 1) refuse(model.sampling_at, "decimate is for windows");
+    for (const char* key : {"form", "quadrature", "engine"}) if (t.contains(key)) refuse(position(*t.get(key)), std::string(key) + " is for windows");
+    if (model.estimator.solve == Solver::robust && !model.estimator.solve_window) {
+        reading.file.error(*t.get("solve"), "robust without solve_window", "add solve_window = 0.2, in seconds: how long S(t) sums");
     }
 }
 
@@ -151,6 +166,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
         else e.forgetting = *f;
     }
     check_support(*t, reading);
+    check_instants(*t, reading);
     check_times(*t, reading);
 }
 

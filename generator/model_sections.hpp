@@ -29,6 +29,9 @@ void read_estimator(const toml::table& root, Reading& reading);
 // model_discrete.cpp: [discrete]; after the estimator and the quantities.
 void read_discrete(const toml::table& root, Reading& reading);
 
+// model_filter.cpp: [filter], in place of equations; after the signals and [sampling].
+void read_filter(const toml::table& root, Reading& reading);
+
 // model_equations.cpp: [[equation]] or [transfer], and [[feedback]]; after the quantities that they name.
 void read_equations(const toml::table& root, Reading& reading);
 void read_feedback(const toml::table& root, Reading& reading);

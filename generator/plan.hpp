@@ -14,6 +14,8 @@ namespace algest::plan {
 
 enum class Scalar : std::uint8_t { float64, float32 };
 enum class Hold : std::uint8_t { zoh, linear };
+/// Of [estimator]: what rows are made of.
+enum class Functional : std::uint8_t { annihilator, derivative };
 enum class Quadrature : std::uint8_t { exact, trapezoid, simpson };
 enum class Domain : std::uint8_t { z, q };
 
@@ -25,6 +27,7 @@ struct Input {
     double min;            ///< samples outside [min, max] are rejected; infinite: no limit
     double max;
     bool differentiated;   ///< a parabola filter runs on it
+    int wait = 0;          ///< samples that it waits for the sensor that is latest
 };
 
 /// An input some samples ago; the signals' tape reads it behind the inputs.
@@ -51,8 +54,9 @@ struct Table {
     int p;
     int perturbation;                  ///< 0, or i: its functional gives the coefficient c_i of the equation's perturbation, and p is 0
     Hold hold;
-    std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0
+    std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0; empty: no polynomial
     std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty if they were not asked for
+                                       ///< and follow from the kernel
 };
 
 /// One term of a row identity  sum theta_l K_l[f_l] = K_0[f_0].
@@ -175,6 +179,7 @@ struct Plan {
     std::string period_text;   ///< exact rational, s; of the samples that are fed
     double period;             ///< s
     double rate;               ///< 1/period, rounded once to the scalar, 1/s
+    Functional functional = Functional::annihilator;
     int intervals;             ///< M; a window has M + 1 samples
     int decimate = 1;          ///< periods that one sample of a window is the mean over; 1: it is a sample that was fed
     Quadrature quadrature;
@@ -210,10 +215,15 @@ struct Plan {
     /// That are estimated; perturbations stand behind them.
     int estimated() const { return static_cast<int>(parameters.size() - perturbation.size()); }
     bool uncertain() const { return !noise.empty(); }
-    /// From a start or restart: the window, the instants of S(t), the samples that a first mean and a delayed model need before.
+    int longest_wait() const {
+        int longest = 0;
+        for (const Input& i : inputs) longest = i.wait > longest ? i.wait : longest;
+        return longest;
+    }
+    /// From a start or restart: the window, the instants of S(t), the samples that a first mean, a delayed model and a late sensor need before.
     int samples_to_first_estimate() const {
         const int instants = samples() + (solve_instants > 0 ? solve_instants - 1 : 0);
-        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0) + delay_length();
+        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0) + delay_length() + longest_wait();
     }
     /// Samples that the lines of past inputs hold; 0: there are none.
     int delay_length() const {

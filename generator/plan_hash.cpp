@@ -111,6 +111,7 @@ std::string plan_hash(const plan::Plan& plan) {
     }
     hash.add(plan.deviation_limit);
     hash.add(plan.whiten);
+    if (plan.longest_wait() > 0) for (const plan::Input& i : plan.inputs) hash.add(i.wait);
     if (plan.whiten) for (const plan::Lumped& u : plan.lumped) hash.add(u.initial);
     if (plan.ratio) {
         for (const std::vector<double>* numbers : {&plan.ratio->transition, &plan.ratio->before, &plan.ratio->now}) for (const double x : *numbers) hash.add(x);

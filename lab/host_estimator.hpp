@@ -43,6 +43,8 @@ public:
           estimate_scratch_(size(uncertainty_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns,
                                                      plan.solve_instants) +
                                  packed_size(blueprint_.unknowns))),
+          waiting_(size(plan.longest_wait() + 1) * plan.inputs.size()),
+          aligned_(plan.inputs.size()),
           previous_(plan.inputs.size()),
           filters_(plan.inputs.size()),
           derivatives_(plan.inputs.size()),
@@ -68,6 +70,8 @@ public:
         algest::reset(blueprint_.view(), memory());
         run_ = 0;
         block_ = {};
+        waiting_at_ = 0;
+        waited_ = 0;
         delay_ = {};
         status_ = Status::filling;
         condition_ = std::numeric_limits<S>::infinity();
@@ -76,8 +80,10 @@ public:
 
     /// Takes one sample: plan.inputs values, in the plan's units. Total: every input is answered.
     /// Cost: that of the runtime's push, and one operation per entry of the signals' tape.
-    void push(const S* inputs) {
-        if (!acceptable(inputs)) return refuse();
+    void push(const S* newest_sample) {
+        if (!acceptable(newest_sample)) return refuse();
+        if (!align(newest_sample)) return algest::prime(memory());
+        const S* inputs = aligned_.data();
         if (!plan_->past.empty() && !look_back(inputs)) return algest::prime(memory());
         if (delayed_) {
             if (run_ == 0) {
@@ -149,6 +155,24 @@ private:
 
     Memory<S> memory() { return {rings_.data(), sums_.data(), published_.data(), &progress_, whitened_at_.data(), ratio_.data()}; }
 
+    /// Puts the values of one instant into aligned_: each input's of as many samples ago as it waits. False while there are too few.
+    bool align(const S* newest_sample) {
+        const std::size_t width = aligned_.size();
+        const int longest = plan_->longest_wait();
+        std::copy_n(newest_sample, width, waiting_.begin() + static_cast<std::ptrdiff_t>(size(waiting_at_) * width));
+        const int now = waiting_at_;
+        waiting_at_ = now == longest ? 0 : now + 1;
+        if (waited_ < longest) {
+            ++waited_;
+            return false;
+        }
+        for (std::size_t i = 0; i < width; ++i) {
+            const int wait = plan_->inputs[i].wait;
+            aligned_[i] = waiting_[size(now >= wait ? now - wait : now + longest + 1 - wait) * width + i];
+        }
+        return true;
+    }
+
     /// True when every input is finite and inside its declared limits.
     bool acceptable(const S* inputs) const {
         for (std::size_t i = 0; i < plan_->inputs.size(); ++i) {
@@ -192,6 +216,7 @@ private:
     /// Windows, filters and the memory of the sample before start anew.
     void refuse() {
         algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
+        waited_ = 0;
         run_ = 0;
         block_ = {};
         delay_ = {};
@@ -227,6 +252,10 @@ private:
     BoxcarProgress block_{};
     std::vector<S> push_scratch_;
     std::vector<S> estimate_scratch_;
+    std::vector<S> waiting_;   ///< the newest samples, a ring
+    std::vector<S> aligned_;
+    int waiting_at_ = 0;       ///< where the next sample goes
+    int waited_ = 0;           ///< samples since the last restart, at most the longest wait
     std::vector<S> previous_;
     std::vector<ParabolaFilter<S>> filters_;
     std::vector<S> derivatives_;  ///< per second

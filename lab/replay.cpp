@@ -17,20 +17,6 @@ namespace algest::lab {
 
 namespace {
 
-/// Rows of a recording: [begin, end).
-struct RowRange {
-    std::size_t begin;
-    std::size_t end;
-    std::size_t size() const { return end - begin; }
-};
-
-RowRange rows_of(const Recording& recording, const Stretch& stretch) {
-    const std::vector<double>& t = recording.t;
-    const auto begin = std::lower_bound(t.begin(), t.end(), stretch.from);
-    const auto end = std::upper_bound(begin, t.end(), stretch.to);
-    return {static_cast<std::size_t>(begin - t.begin()), static_cast<std::size_t>(end - t.begin())};
-}
-
 bool check_length(const plan::Plan& plan, const Recording& recording, RowRange rows, Diagnostics& diagnostics) {
     const int needed = plan.samples_to_first_estimate();
     if (rows.size() >= static_cast<std::size_t>(needed)) return true;
@@ -43,16 +29,6 @@ bool check_length(const plan::Plan& plan, const Recording& recording, RowRange r
               : fmt::format("a longer stretch; the recording goes from {:.6g} s to {:.6g} s", recording.t.front(),
                             recording.t.back()));
     return false;
-}
-
-/// The samples of every input, in the order of plan.inputs; false if one is not to be had.
-bool read_inputs(const plan::Plan& plan, const Recording& recording, std::vector<std::vector<double>>& inputs,
-                 Diagnostics& diagnostics) {
-    for (const plan::Input& input : plan.inputs) {
-        auto values = signal_values(recording, {input.name, input.column, input.unit}, diagnostics);
-        if (values) inputs.push_back(std::move(*values));
-    }
-    return inputs.size() == plan.inputs.size();
 }
 
 template <class S>

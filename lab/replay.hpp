@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,14 +12,9 @@
 #include "generator/diagnostics.hpp"
 #include "generator/plan.hpp"
 #include "lab/recording.hpp"
+#include "lab/stretch.hpp"
 
 namespace algest::lab {
-
-/// Seconds of a recording's own `t`, both ends included.
-struct Stretch {
-    double from = -std::numeric_limits<double>::infinity();
-    double to = std::numeric_limits<double>::infinity();
-};
 
 /// What the estimator said at each sample. Values in float estimators are those floats, exactly.
 struct Replay {

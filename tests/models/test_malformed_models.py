@@ -358,7 +358,7 @@ VALUES = [
     ("window with a rest of a decimated period", coil("period = 0.001", "period = 0.001\ndecimate = 3", "0.02", "▸0.02"), "not a whole number of decimated periods"),
     ("solve_window with a rest of a decimated period", changed(estimator('solve = "robust"\nsolve_window = ▸0.012\n'), "period = 0.001", "period = 0.001\ndecimate = 5"), "not a whole number of decimated periods"),
     ("noise that enters no row", changed(estimator("deviation_limit = 0.1\n"), "[estimator]", "▸[estimator]", "- R*i", "- R*sgn(w)*i", 'v = {', 'w = { unit = "A", noise = 1 }\nv = {'), "enters no row"),
-    ("noise that goes through the parabola filter", changed(noisy('uncertainty = true\n'), "[estimator]", "▸[estimator]", "- R*i", "- R*sin(der(i)*tau)*i", "[constants]", '[constants]\ntau = { value = 1, unit = "s/A" }'), "through the parabola filter"),
+    ("noise that goes through the parabola filter into means", changed(noisy('uncertainty = true\n'), "window = 0.02", "window = 0.02\ndecimate = 2", "[estimator]", "▸[estimator]", "- R*i", "- R*sin(der(i)*tau)*i", "[constants]", '[constants]\ntau = { value = 1, unit = "s/A" }'), "through the parabola filter"),
     ("a perturbation that nothing annihilates", equation('perturbation = ▸"force"\n'), "kappa = 0 annihilates none"),
     ("a perturbation with a signal's name", equation('kappa = 1\nperturbation = ▸"i"\n'), "of something else"),
     ("a perturbation whose first coefficient is a signal", changed(equation('kappa = 2\nperturbation = ▸"f"\n'), "v = {", 'f1 = { unit = "V" }\nv = {'), "of something else"),
