@@ -72,6 +72,7 @@ struct BlueprintData {
     std::vector<algest::NoiseChannel<S>> noise;
     std::vector<S> whiten_at;
     algest::LowPass<S> ratio;
+    bool normalise;
     EliminationData<S> elimination = {};
 
     /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
@@ -87,6 +88,7 @@ struct BlueprintData {
                 {whiten_at.data(), static_cast<int>(whiten_at.size())},
                 ratio,
                 row_set(perturbation),
+                normalise,
                 elimination.view()};
     }
 
@@ -121,7 +123,8 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
                           {},
                           {},
                           {},
-                          {}};
+                          {},
+                          plan.normalise};
     data.tables.reserve(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
     for (const Table& table : plan.tables) {
         for (const double weight : table.weights) data.tables.push_back(static_cast<S>(weight));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "generator/annihilator.hpp"
+#include "generator/discrete_derivation.hpp"
 #include "generator/elimination_text.hpp"
 #include "generator/exact.hpp"
 #include "generator/formula.hpp"
@@ -282,6 +283,7 @@ Data rows_data(const Plan& plan, const std::vector<plan::Row>& of) {
 }  // namespace
 
 std::string derivation_text(const Plan& plan) {
+    if (plan.discrete) return discrete_derivation_text(plan, solve_text(plan));
     Data d = common(plan);
     d.set("summary", plan.summary);
     d.set("has_summary", !plan.summary.empty());
@@ -340,6 +342,7 @@ std::string functional_tex(const Plan& plan, const plan::Row& row, const plan::R
 }  // namespace
 
 std::string derivation_latex(const Plan& plan) {
+    if (plan.discrete) return discrete_derivation_latex(plan);
     Data d = common(plan);
     std::string name_tex;
     for (const char c : plan.name) name_tex += c == '_' ? std::string("\\_") : std::string(1, c);
@@ -402,6 +405,7 @@ std::vector<double> weights_of(const Plan& plan, const plan::RowTerm& t) {
 }  // namespace
 
 std::string derivation_json(const Plan& plan, bool weights) {
+    if (plan.discrete) return discrete_derivation_json(plan, solve_text(plan), weights);
     using Json = nlohmann::ordered_json;
     Json out;
     out["name"] = plan.name;

@@ -181,6 +181,8 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("limited_deviation", plan.deviation_limit > 0.0);
     d.set("deviation_limit_text", exact::decimal(exact::from_double(plan.deviation_limit)));
     d.set("has_perturbation", !plan.perturbation.empty());
+    d.set("discrete", plan.discrete.has_value());
+    d.set("normalise", plan.normalise);
     d.set("rows", std::to_string(plan.rows.size()));
     d.set("unknowns", std::to_string(plan.lumped.size()));
     d.set("instants", std::to_string(plan.solve_instants));

@@ -42,10 +42,8 @@ void read_sections(const toml::table& root, Reading& reading) {
     read_constants(root, reading);
     read_parameters(root, reading);
     read_estimator(root, reading);
-    if (const toml::node* discrete = root.get("discrete")) {
-        file.error(*discrete, "[discrete] is not supported by this version", "use functional = \"annihilator\"");
-    }
     read_formulas(root, reading);
+    read_discrete(root, reading);
     read_filter(root, reading);
     if (!reading.model.filter) read_equations(root, reading);
     read_feedback(root, reading);

@@ -118,6 +118,29 @@ struct Filter {
     std::vector<int> signals;   ///< indices, in the order of the file
 };
 
+/// [discrete]: a transfer function in z or q, identified from samples (004).
+struct Discrete {
+    Position at;
+    plan::Domain domain = plan::Domain::q;
+    std::string output;
+    std::string input;
+    int n = 1;
+    int m = 0;                        ///< of the numerator in z, with the preset zeros
+    int numerator = 0;                ///< unknowns of the numerator, less one
+    int derivatives = 2;
+    int skip = 0;                     ///< levels that are left out
+    int extra = 0;                    ///< rows beyond the unknowns
+    Rational gamma = 1;
+    std::vector<Rational> filter_numerator;     ///< of the rows, in z^-1; empty: they are not filtered
+    std::vector<Rational> filter_denominator;
+
+    int unknowns() const { return n + numerator + 1; }
+    int highest_level() const { return n + numerator + skip + extra; }
+};
+
+/// a0 .. a(n-1), b0 .. of z; A1 .. An, B0 .. of q.
+std::vector<std::string> unknown_names(const Discrete& discrete);
+
 struct Model {
     std::string path;
     std::string name;
@@ -138,6 +161,7 @@ struct Model {
     std::vector<Equation> equations;  ///< a [transfer] is written out as one
     std::vector<Feedback> feedback;
     Estimator estimator;
+    std::optional<Discrete> discrete;
     std::optional<Filter> filter;     ///< then there are no equations and nothing to estimate
 
     const Signal* signal(const std::string& name) const;
@@ -156,6 +180,8 @@ constexpr int largest_kappa = 8;
 constexpr int largest_row = 40;
 constexpr int most_intervals = 1000000;
 constexpr int largest_decimation = 10000;
+constexpr int largest_skip = 40;      ///< levels of sums, each a degree more
+constexpr int most_extra_rows = 100;
 constexpr int largest_lag = 1000;
 
 /// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.

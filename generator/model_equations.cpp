@@ -333,7 +333,7 @@ void read_equations(const toml::table& root, Reading& reading) {
     } else if (root.contains("transfer")) {
         if (const toml::table* t = file.subtable(root, "transfer")) read_transfer(*t, reading);
     } else if (equations == nullptr || (equations->is_array() && equations->as_array()->empty())) {
-        file.error(Position{1, 1}, "no equation", "add [transfer] or [[equation]]");
+        if (!root.contains("discrete")) file.error(Position{1, 1}, "no equation", "add [transfer] or [[equation]]");
     } else {
         file.each_table(root, "equation", [&](const toml::table& table) { read_equation(table, reading); });
     }

@@ -55,14 +55,6 @@ void check_noise(const toml::table& t, Reading& reading) {
     }
 }
 
-/// Complains about what a model may say and this version cannot do.
-void check_support(const toml::table& t, Reading& reading) {
-    const Estimator& e = reading.model.estimator;
-    if (e.functional == Functional::discrete) {
-        reading.file.error(*t.get("functional"), "this functional is not supported by this version", "use functional = \"annihilator\", \"derivative\" or \"average\"");
-    }
-}
-
 /// Complains about what belongs to windows, where rows hold at single instants.
 void check_instants(const toml::table& t, Reading& reading) {
     const Model& model = reading.model;
@@ -193,7 +185,6 @@ void read_estimator(const toml::table& root, Reading& reading) {
     }
     read_stages(*t, reading);
     if (e.functional == Functional::average) check_average(*t, reading);
-    check_support(*t, reading);
     check_instants(*t, reading);
     check_times(*t, reading);
 }

@@ -26,6 +26,9 @@ void read_parameters(const toml::table& root, Reading& reading);
 void read_sampling(const toml::table& root, Reading& reading);
 void read_estimator(const toml::table& root, Reading& reading);
 
+// model_discrete.cpp: [discrete]; after the estimator and the quantities.
+void read_discrete(const toml::table& root, Reading& reading);
+
 // model_filter.cpp: [filter], in place of equations; after the signals and [sampling].
 void read_filter(const toml::table& root, Reading& reading);
 

@@ -10,6 +10,7 @@
 
 #include "generator/delay.hpp"
 #include "generator/dimension.hpp"
+#include "generator/discrete_plan.hpp"
 #include "generator/elimination_data.hpp"
 #include "generator/generate.hpp"
 #include "generator/initial_value.hpp"
@@ -41,6 +42,7 @@ public:
 
     std::optional<plan::Plan> run() {
         if (!what_is_missing()) return std::nullopt;
+        if (model_.discrete) return run_discrete();
         const auto forms = operator_forms(model_, diagnostics_);
         if (!forms) return std::nullopt;
         forms_ = *forms;
@@ -56,6 +58,8 @@ public:
         if (!weights) return std::nullopt;
 
         head();
+        plan_.functional = functional_->kind();
+        plan_.intervals = functional_->intervals();
         equations();
         if (!inputs() || !past_inputs()) return std::nullopt;
         solver();
@@ -80,13 +84,24 @@ public:
     }
 
 private:
+    std::optional<plan::Plan> run_discrete() {
+        head();
+        if (model_.window) plan_.intervals = cln::cl_I_to_int(cln::numerator(*model_.window / *model_.period));
+        solver();
+        plan_discrete(model_, options_, plan_);
+        plan_.kept = kept_samples(plan_.solve, 0, false, false);
+        if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
+        return std::move(plan_);
+    }
+
     bool what_is_missing() {
+        const bool pooled_samples = model_.discrete && model_.estimator.solve == model::Solver::least_squares;
         if (!model_.period) diagnostics_.error(model_.path, model_.sampling_at, "no sampling period", "add [sampling] period = 1e-3, in seconds");
-        if (!model_.window && model_.estimator.has_window()) {
+        if (!model_.window && model_.estimator.has_window() && !pooled_samples) {
             diagnostics_.error(model_.path, model_.sampling_at, "no window: an estimator needs one",
                                "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
         }
-        if (model_.parameters.empty()) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
+        if (model_.parameters.empty() && !model_.discrete) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
         return !diagnostics_.has_errors();
     }
 
@@ -102,8 +117,6 @@ private:
         plan_.period_text = exact::text(*model_.period);
         plan_.period = exact::nearest(*model_.period, plan::Scalar::float64);
         plan_.rate = exact::nearest(1 / *model_.period, options_.scalar);
-        plan_.functional = functional_->kind();
-        plan_.intervals = functional_->intervals();
         plan_.decimate = model_.decimate;
         plan_.quadrature = model_.estimator.quadrature;
         if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\"");
@@ -487,6 +500,7 @@ private:
     /// Rows of a machine that is excited well have a condition of 10 to 1e4; beyond 1e5 they tell noise and rounding apart no more.
     /// Single precision stops where rounding alone would cost three digits of seven; S(t) squares the condition of its rows.
     double default_condition_limit() const {
+        if (model_.discrete) return plan_.scalar == plan::Scalar::float64 ? 1e14 : 1e9;
         if (plan_.scalar == plan::Scalar::float64) return 1e5;
         return plan_.solve == algest::Solve::robust ? 92.0 : 8.4e3;   // sqrt(1e-3 / epsilon), 1e-3 / epsilon
     }
@@ -561,7 +575,7 @@ bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics)
     const auto model = model::read(path, strict, diagnostics);
     if (!model) return false;
     if (model->filter || simulation_alone(*model, diagnostics)) return !diagnostics.failed();
-    if (!model->parameters.empty() && model->period && (model->window || !model->estimator.has_window())) {   // an estimator follows, or it is said why not
+    if (model->discrete || (!model->parameters.empty() && model->period && (model->window || !model->estimator.has_window()))) {   // an estimator follows, or it is said why not
         PlanOptions options;
         options.weights = false;
         (void)Planner(*model, options, diagnostics).run();

@@ -17,6 +17,7 @@ enum class Hold : std::uint8_t { zoh, linear };
 /// Of [estimator]: what rows are made of.
 enum class Functional : std::uint8_t { annihilator, derivative, average };
 enum class Quadrature : std::uint8_t { exact, trapezoid, simpson };
+enum class Domain : std::uint8_t { z, q };
 
 /// A signal that the user feeds, in the order of the model file.
 struct Input {
@@ -205,6 +206,32 @@ struct SteadyState {
     int stretches;                    ///< the input that numbers stretches; -1: none
 };
 
+/// Which side of a difference equation a column of the rows comes from, and the samples that it combines: scale * sum taps[s] f(k-n+s).
+struct Combination {
+    std::string name;                  ///< of the unknown; "known" for the known side
+    bool input;                        ///< of the input; else of the output
+    std::string scale;                 ///< exact rational
+    std::vector<std::string> taps;     ///< coprime integers
+};
+
+/// How the rows of a discrete-time estimator were made (004); the unknowns are the denominator's, then the numerator's, lowest first.
+struct Discrete {
+    Domain domain;
+    int n;
+    int m;
+    int numerator;
+    int derivatives;
+    int skip;
+    int extra;
+    std::string gamma;                        ///< exact rational
+    std::string omega0;                       ///< 2/period, exact rational, 1/s
+    bool pooled;                              ///< the equation itself, of every sample since reset (12 to 14); else levels of sums
+    std::vector<std::string> multiplier;      ///< chi(k), lowest power first; empty where pooled
+    std::vector<Combination> combinations;
+    std::vector<std::string> filter_numerator;     ///< of the rows, in z^-1; empty: they are not filtered
+    std::vector<std::string> filter_denominator;
+};
+
 struct Plan {
     std::string name;
     std::string class_name;
@@ -243,6 +270,8 @@ struct Plan {
     std::optional<RatioFilter> ratio;
     std::optional<Elimination> elimination;   ///< with solve = elimination
     std::optional<SteadyState> steady;        ///< of the functional average; a window is then one mean
+    std::optional<Discrete> discrete;
+    bool normalise = false;              ///< rows are divided by their largest entry, columns tested against rounding
     std::vector<std::string> notes;   ///< what was chosen for the user, in words
 
     int samples() const { return intervals + 1; }

@@ -147,6 +147,7 @@ std::string plan_hash(const plan::Plan& plan) {
     if (plan.ratio) {
         for (const std::vector<double>* numbers : {&plan.ratio->transition, &plan.ratio->before, &plan.ratio->now}) for (const double x : *numbers) hash.add(x);
     }
+    if (plan.normalise) hash.add(true);
     return hash.text();
 }
 

@@ -80,7 +80,7 @@ inline constexpr Blueprint<double> blueprint = {
     Solve::elimination, 0, 0x1p+0, 0x1.86ap+16, 0,
     {0, {nullptr, 0}}, 0x0p+0,
     {nullptr, 0}, {false, {}, {}, {}},
-    { 1, 12, 0, 8, {nullptr, 0}, {nullptr, 0}, {nullptr, 0} },
+    { 1, 12, 0, 8, {nullptr, 0}, {nullptr, 0}, {nullptr, 0} }, false,
     { 5, {stages, 2}, {alone, 4}, {column_of, 4}, {coefficient_of, 4}, {exponents, 20},
       {nullptr, 0}, {nullptr, 0}, {sizes, 5} }
 };

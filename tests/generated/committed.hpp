@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "generated/dc_motor/dc_motor.hpp"
+#include "generated/drive_train/drive_train.hpp"
+#include "generated/drive_train_zeros/drive_train_zeros.hpp"
 #include "generated/magnetic_bearing/magnetic_bearing.hpp"
 #include "generated/motor_pump/motor_pump.hpp"
 #include "generated/pendulum/pendulum.hpp"
@@ -22,7 +24,8 @@
 #include "generated/servo/servo.hpp"
 
 #define ALGEST_COMMITTED                                                                                                   \
-    algest::generated::DcMotor, algest::generated::MagneticBearing, algest::generated::MotorPump, algest::generated::Pendulum, \
+    algest::generated::DcMotor, algest::generated::DriveTrain, algest::generated::DriveTrainZeros,                         \
+        algest::generated::MagneticBearing, algest::generated::MotorPump, algest::generated::Pendulum,                     \
         algest::generated::PmsmElectrical, algest::generated::PmsmInertia, algest::generated::PmsmMechanical,              \
         algest::generated::PositioningAxis, algest::generated::RlCircuit, algest::generated::Servo
 
@@ -36,6 +39,10 @@ template <class Class>
 constexpr const char* model = nullptr;
 template <>
 inline constexpr const char* model<generated::DcMotor> = "dc_motor";
+template <>
+inline constexpr const char* model<generated::DriveTrain> = "drive_train";
+template <>
+inline constexpr const char* model<generated::DriveTrainZeros> = "drive_train_zeros";
 template <>
 inline constexpr const char* model<generated::MagneticBearing> = "magnetic_bearing";
 template <>

@@ -145,8 +145,8 @@ Status fed(const char* model, const std::function<std::vector<double>(int)>& inp
     return status;
 }
 
-constexpr const char* all_models[] = {"dc_motor",     "magnetic_bearing", "motor_pump",       "pendulum",   "pmsm_electrical",
-                                      "pmsm_inertia", "pmsm_mechanical",  "positioning_axis", "rl_circuit", "servo"};
+constexpr const char* all_models[] = {"dc_motor", "drive_train", "drive_train_zeros", "magnetic_bearing", "motor_pump", "pendulum",
+                                      "pmsm_electrical", "pmsm_inertia", "pmsm_mechanical", "positioning_axis", "rl_circuit", "servo"};
 
 }  // namespace
 
@@ -181,6 +181,8 @@ TEST_CASE("hostile samples: the compiled classes answer them alike") {
         }
     };
     compare(std::make_unique<generated::DcMotor>(), "dc_motor");
+    compare(std::make_unique<generated::DriveTrain>(), "drive_train");
+    compare(std::make_unique<generated::DriveTrainZeros>(), "drive_train_zeros");
     compare(std::make_unique<generated::MagneticBearing>(), "magnetic_bearing");
     compare(std::make_unique<generated::Pendulum>(), "pendulum");
     compare(std::make_unique<generated::PmsmElectrical>(), "pmsm_electrical");
@@ -201,7 +203,7 @@ TEST_CASE("zero signals are singular") {
 }
 
 TEST_CASE("constant signals are singular") {
-    for (const char* model : {"rl_circuit", "pmsm_electrical", "positioning_axis"}) {
+    for (const char* model : {"rl_circuit", "pmsm_electrical", "positioning_axis", "drive_train", "drive_train_zeros"}) {
         const std::size_t inputs = plan_of(model, plan::Scalar::float64).inputs.size();
         for (const double value : {1.0, 0.3, 1e-5}) {
             INFO(model << " at " << value);

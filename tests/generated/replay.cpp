@@ -11,6 +11,7 @@
 #include "generator/generate.hpp"
 #include "lab/recording.hpp"
 #include "tests/generated/committed.hpp"
+#include "tests/plants/drive_train.hpp"
 #include "tests/plants/pendulum.hpp"
 #include "tests/plants/pmsm.hpp"
 #include "tests/plants/positioning_axis.hpp"
@@ -105,6 +106,15 @@ TEST_CASE("replay and the compiled estimator agree to the last bit on simulated 
     rows.clear();
     for (const double angle : plants::simulate(plants::Pendulum{}, 3000)) rows.push_back({angle});
     agree<generated::Pendulum>(recording(1e-3, {{"theta", "rad"}}, rows));
+
+    rows.clear();
+    plants::DriveTrainRun drive = plants::drive_train_run(0.01);
+    for (int second = 0; second < 2; ++second) {   // long enough to move the window on
+        plants::add_drive_train_noise(drive, 7);
+        for (std::size_t k = 0; k < drive.u.size(); ++k) rows.push_back({drive.u[k], drive.omega[k]});
+    }
+    agree<generated::DriveTrain>(recording(0.01, {{"u", "V"}, {"omega", "rad/s"}}, rows));
+    agree<generated::DriveTrainZeros>(recording(0.01, {{"u", "V"}, {"omega", "rad/s"}}, rows));
 
     rows.clear();
     for (int k = 0; k < 2000; ++k) {   // any signals do: agreement is about bits

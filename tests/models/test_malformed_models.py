@@ -245,7 +245,6 @@ KEYS = [
     ("misspelt key of feedback", feedback('signal = "v"\nlaw = "i"\n▸gain = 1\n'), "unknown key 'gain'"),
     ("key as near to one as to another", coil('R = { ', 'R = { ▸mix = 1, '), "unknown key 'mix'; keys here"),
     ("capital letter", coil('R = { unit', 'R = { ▸Unit'), "did you mean unit?"),
-    ("a section of a later version", COIL + "▸[discrete]\n", "not supported by this version"),
     ("no name", "▸" + coil('name = "m"', ""), "no name"),
     ("nothing", "▸▸▸", "no name"),
     ("comments alone", "▸▸▸# a model\n", "no equation"),

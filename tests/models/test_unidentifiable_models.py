@@ -104,7 +104,7 @@ class Unidentifiable(ModelCase):
                 self.assertEqual(self.run_algest("check", "m.toml")[0], 0)
 
     def test_bad_input_outweighs_it(self):
-        content, _ = without_marks(model(["a = {}", "spare = {}"], 'ode = "der(x) = sin(a)*u"'))
+        content, _ = without_marks(model(["a = {}", "spare = {}"], 'ode = "der(x) = a*nowhere"'))
         self.write(content)
         self.assertEqual(self.run_algest("check", "m.toml")[0], 2)
 

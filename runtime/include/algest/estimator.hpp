@@ -12,6 +12,7 @@
 #include "algest/elimination.hpp"
 #include "algest/gram_window.hpp"
 #include "algest/noise.hpp"
+#include "algest/normalised_rows.hpp"
 #include "algest/ratio_filter.hpp"
 #include "algest/rows.hpp"
 #include "algest/solve_gram.hpp"
@@ -45,6 +46,7 @@ struct Blueprint {
     View<S> whiten_at;    ///< unknowns at which rows are whitened until the first ok estimate; empty: they are not whitened
     LowPass<S> ratio;     ///< robust: of numerators and denominator
     RowSet<S> perturbation;   ///< rows whose residuals at the estimate are the perturbation's coefficients; none: rows == 0
+    bool normalise = false;   ///< square: rows are divided by their largest entry, and the condition is that before columns are scaled
     Elimination<S> elimination = {};   ///< what the columns mean; otherwise empty
 };
 
@@ -221,12 +223,13 @@ inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch)
     return {scratch, sums, factor, factor + rows.rows * rows.rows};
 }
 
-/// [P|Q] of the newest instant, whitened where that is asked for; false if it cannot be whitened.
+/// [P|Q] of the newest instant, whitened or normalised where that is asked for; false if it cannot be.
 template <class S>
 inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, int head, const EstimateScratch<S>& at) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const WindowPosition window_at = newest(rows.samples, ring_length(rows.samples, blueprint.kept), head);
     evaluate_rows(rows, memory.rings, window_at, at.matrix);
+    if (blueprint.normalise) return columns_rise_above_rounding(rows, memory.rings, window_at, at.matrix, at.work) && normalise_rows(at.matrix, rows.rows, rows.unknowns);
     if (blueprint.whiten_at.size == 0) return true;
     if (!residual_factor(rows, blueprint.noise, memory.rings, window_at, memory.whitened_at, at.work, at.factor)) return false;
     whiten(at.factor, at.matrix, rows.rows, rows.unknowns + 1);
@@ -334,6 +337,7 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
         const bool usable = newest_rows(blueprint, memory, then.head, at);
         if (pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, none};
         if (usable) solved = solve_rows(at.matrix, rows.rows, n, at.work, lumped);
+        if (blueprint.normalise && solved.regular) solved.condition = condition_before_scaling(at.matrix, n, at.work);
     } else {
         for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * size + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
