@@ -357,7 +357,6 @@ VALUES = [
     ("drift of zero", coil('v = { unit = "V" }', 'v = { unit = "V", steady = ▸0 }'), "not positive"),
     ("unknown solver", estimator('solve = ▸"cholesky"\n'), "square | robust | least_squares | elimination"),
     ("misspelt solver", estimator('solve = ▸"least_sqaures"\n'), "did you mean least_squares?"),
-    ("functional of a later version", estimator('functional = ▸"discrete"\n'), "not supported by this version"),
     ("form 3", estimator("form = ▸3\n"), "whole number from 1 to 2"),
     ("unknown engine", estimator('engine = ▸"gpu"\n'), "fir | moments"),
     ("unknown quadrature", estimator('quadrature = ▸"romberg"\n'), "exact | trapezoid | simpson"),
