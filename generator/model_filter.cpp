@@ -50,6 +50,10 @@ void read_filter(const toml::table& root, Reading& reading) {
     read_kind(*t, file);
     Filter filter{position(*t), read_filtered(*t, reading)};
     if (filter.signals.empty() && file.sound()) file.error(*t, "a filter without signals", "write signals = [\"omega\"], or leave it out: all signals then");
+    for (const int s : filter.signals) {
+        const Signal& signal = reading.model.signals[static_cast<std::size_t>(s)];
+        if (!signal.formula_text.empty()) file.error(signal.at, quoted(signal.name) + " is computed, and a filter runs on measured signals", "list the measured ones: signals = [...]");
+    }
     if (!reading.model.period) file.error(*t, "a filter needs the sampling period", "add [sampling] period = 1e-3, in seconds");
     if (reading.model.window) file.error(reading.model.window_at, "a window is for estimators", "leave it out");
     if (reading.model.decimate > 1) file.error(reading.model.sampling_at, "decimate is for estimators", "leave it out");

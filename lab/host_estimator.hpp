@@ -80,6 +80,7 @@ public:
         block_ = {};
         point_ = {};
         solved_ = never;
+        points_ = 0;
         waiting_at_ = 0;
         waited_ = 0;
         delay_ = {};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace algest::lab {
 
@@ -34,8 +35,14 @@ const char* in_words(Standing standing) {
 }
 
 std::vector<EliminationCandidate> named_candidates(const plan::Plan& plan, const std::vector<Candidate<double>>& candidates) {
+    const auto rank = [](Standing v) { return v == Standing::best ? 0 : v == Standing::spurious ? 2 : 1; };
+    std::vector<Candidate<double>> sorted = candidates;
+    std::erase_if(sorted, [](const Candidate<double>& c) { return !std::isfinite(c.error); });   // roots that rounding sent to infinity
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const Candidate<double>& a, const Candidate<double>& b) {
+        return std::make_tuple(a.stage, rank(a.standing), a.error) < std::make_tuple(b.stage, rank(b.standing), b.error);
+    });
     std::vector<EliminationCandidate> out;
-    for (const Candidate<double>& c : candidates) {
+    for (const Candidate<double>& c : sorted) {
         const plan::EliminationStage& stage = plan.elimination->stages[static_cast<std::size_t>(c.stage)];
         EliminationCandidate named{"", {}, c.error, c.standing};
         for (const std::string& e : stage.equations) named.equations += (named.equations.empty() ? "" : ", ") + e;
@@ -48,11 +55,6 @@ std::vector<EliminationCandidate> named_candidates(const plan::Plan& plan, const
         add(stage.y, stage.y_squared, c.y);
         out.push_back(std::move(named));
     }
-    const auto rank = [](Standing v) { return v == Standing::best ? 0 : v == Standing::spurious ? 2 : 1; };
-    std::stable_sort(out.begin(), out.end(), [&](const EliminationCandidate& a, const EliminationCandidate& b) {
-        if (a.equations != b.equations) return false;
-        return rank(a.standing) != rank(b.standing) ? rank(a.standing) < rank(b.standing) : a.error < b.error;
-    });
     return out;
 }
 
