@@ -201,8 +201,8 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         if (fitted.empty()) break;
         std::vector<std::size_t> order(fitted.size());
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-        std::vector<double> merit;
-        for (const Variant& v : fitted) merit.push_back(criterion(v, nominal));
+        std::vector<std::pair<bool, double>> merit;   // what is worth adding comes first: the criterion counts the rows of a poor fit as few
+        for (const Variant& v : fitted) merit.emplace_back(worth_it(v.score, out.best.score), criterion(v, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
         // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does, and so does dry friction that falls:
         // what hangs on the machine, adds to the model instead of bending it, and has less to fit, goes first where both explain alike.
@@ -210,7 +210,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
             return *std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == v.amendments.back().effect; });
         };
         const auto held_back = [&](const Variant& v) { return effect_of(v).outside || effect_of(v).flexible(); };
-        const auto freedom = [&](const Variant& v) { return std::pair(held_back(v), v.amendments.back().names.size()); };
+        const auto freedom = [&](const Variant& v) { return std::pair(held_back(v), added_parameters(v)); };
         const Variant& nearest = fitted[order[0]];
         for (std::size_t k = 1; k < order.size(); ++k) {
             if (freedom(fitted[order[k]]) < freedom(fitted[order[0]]) && indistinguishable(nearest, fitted[order[k]])) std::swap(order[0], order[k]);

@@ -279,8 +279,10 @@ Score Workbench::rows_score(const Variant& v) const {
             if (is_kinematic(v.model, v.model.equations[e])) continue;   // a definition; every variant scores the same equations
             const auto form = weak_form(v.model, bench, e, rows, intervals);
             if (!form) continue;
-            const Eigen::VectorXd residual = weak_residual(*form, v.fit.parameters);
-            add(out, r, {residual.data(), residual.data() + residual.size()}, driving_size(*form, v.fit.parameters), weak_noise(v.model, bench, e, rows, intervals, v.fit.parameters, noise));
+            // In units of the driving side: an effect that makes that smaller makes the residual smaller, and explains nothing by it.
+            const double size = driving_size(*form, v.fit.parameters);
+            const Eigen::VectorXd residual = weak_residual(*form, v.fit.parameters) / size;
+            add(out, r, {residual.data(), residual.data() + residual.size()}, 1, weak_noise(v.model, bench, e, rows, intervals, v.fit.parameters, noise) / size);
         }
     }
     finish(out);
