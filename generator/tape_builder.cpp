@@ -70,7 +70,10 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
             if (f->name == "der") return derivative(f);
             if (f->name == "delay") return delayed_input(inputs_.delay.at({formula::text(f), delayed}));
             const auto relay = inputs_.relay.find(f.get());
-            if (relay != inputs_.relay.end()) return add(Op::input, relay->second);
+            if (relay != inputs_.relay.end()) {
+                const int value = add(Op::input, relay->second.input);
+                return relay->second.turned ? add(Op::neg, value) : value;
+            }
             const int a = formula(f->arguments[0], delayed);
             const auto layer = inputs_.layer.find(f.get());
             if (layer != inputs_.layer.end()) {

@@ -19,12 +19,18 @@ struct DelayedInput {
     exact::Rational rest;    ///< of the older one, 0 to 1
 };
 
+/// The value of a sgn() as an input of the tape.
+struct Relay {
+    int input;
+    bool turned;   ///< minus the input
+};
+
 /// Which inputs of the tape the names of a model are.
 struct TapeInputs {
     std::vector<int> signal;                               ///< by the model's signals; -1: not an input, a computed one is then its formula
     std::vector<int> parameter = {};                       ///< by the model's parameters; empty: they may not occur
     std::map<std::pair<int, int>, int> derivative = {};    ///< (signal, order); one that is not here is left to the parabola filter
-    std::map<const formula::Node*, int> relay = {};        ///< calls of sgn() whose value is an input; none else
+    std::map<const formula::Node*, Relay> relay = {};      ///< calls of sgn() whose value is an input; none else
     std::map<const formula::Node*, int> layer = {};        ///< calls of sgn() that rise from -1 to 1 over twice the width that is an input; none else
     std::map<std::pair<std::string, bool>, DelayedInput> delay = {};   ///< calls of delay(), by their text and whether all is one sample late; one that is not here may not occur
 };

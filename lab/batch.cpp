@@ -72,7 +72,8 @@ StackedRows stack(const plan::Plan& plan, const MatrixXd& rings) {
     const Eigen::Index width = set.unknowns + 1;
     std::vector<double> all;
     std::vector<double> window(static_cast<std::size_t>(ring_scalars(set.signals, set.samples)));
-    std::vector<double> matrix(static_cast<std::size_t>(set.rows) * static_cast<std::size_t>(width));
+    std::vector<double> matrix(static_cast<std::size_t>(row_entries(set.rows, set.unknowns)));
+    std::vector<double> scratch(matrix.size());
     int filled = 0;
     for (Eigen::Index k = 0; k < rings.cols(); ++k) {
         if (!rings.col(k).allFinite()) {
@@ -81,7 +82,7 @@ StackedRows stack(const plan::Plan& plan, const MatrixXd& rings) {
         }
         write_sample(window.data(), set.signals, set.samples, static_cast<int>(k % set.samples), rings.col(k).data());
         if (++filled < set.samples) continue;
-        evaluate_rows(set, window.data(), newest(set.samples, set.samples, static_cast<int>((k + 1) % set.samples)), matrix.data());
+        evaluate_rows(set, window.data(), newest(set.samples, set.samples, static_cast<int>((k + 1) % set.samples)), matrix.data(), scratch.data());
         all.insert(all.end(), matrix.begin(), matrix.end());
     }
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> both(all.data(), static_cast<Eigen::Index>(all.size()) / width, width);

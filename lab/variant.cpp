@@ -320,7 +320,7 @@ bool Workbench::drifts(const Variant& fitted, std::size_t recording) const {
     const Bench& bench = bench_of(fitted, recording);
     const Rows train = parts(recording).train;
     const Rows rows = {train.begin, train.begin + train.size() / 3};
-    constexpr double push = 0.01;
+    constexpr double push = 0.01;   // of a state's size: far above the tolerance of a run, and what is not proportional to it is 1 percent
     const std::vector<double>& start = initial_of(fitted, recording);
     std::vector<double> pushed = start;
     for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] += push * bench.options.scale[i];

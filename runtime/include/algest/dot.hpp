@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT-0
 // The one dot product of the product, with a stated order of summation.
 #pragma once
+#include <cmath>
 
 namespace algest {
 
@@ -20,6 +21,16 @@ inline S dot(const S* weights, const S* samples, int count) noexcept {
     S sum = ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
     for (; k < count; ++k) sum += weights[k] * samples[k];
     return sum;
+}
+
+/// sum over k of |weights[k] * samples[k]|, about: by the midpoint rule over 16 to 31 strides, every product where there are fewer.
+/// What dot() may leave of a sum that vanishes is measured by it. Cost: at most 31 multiplications and additions.
+template <class S>
+inline S dot_size(const S* weights, const S* samples, int count) noexcept {
+    const int stride = count < 32 ? 1 : count / 16;
+    S sum = S(0);
+    for (int k = stride / 2; k < count; k += stride) sum += std::abs(weights[k] * samples[k]);
+    return sum * S(stride);
 }
 
 }  // namespace algest

@@ -70,7 +70,7 @@ constexpr int published_scalars(Solve solve, int unknowns) noexcept {
     return solve == Solve::square ? 1 : published_slots * packed_size(unknowns + 1);
 }
 /// Scalars of scratch that push needs.
-constexpr int push_scratch(int rows, int unknowns) noexcept { return rows * (unknowns + 1); }
+constexpr int push_scratch(int rows, int unknowns) noexcept { return 2 * row_entries(rows, unknowns); }
 /// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     int most = solve_rows_scratch(unknowns);
@@ -173,8 +173,9 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
     p.head = p.head + 1 == length ? 0 : p.head + 1;
     if (p.filled < rows.samples) ++p.filled;
     if (blueprint.solve != Solve::square && p.filled == rows.samples) {
-        evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch);
-        if (!all_finite(scratch, push_scratch(rows.rows, rows.unknowns))) {
+        const int entries = row_entries(rows.rows, rows.unknowns);
+        evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch, scratch + entries);
+        if (!all_finite(scratch, entries)) {
             // Rows that overflow are left out: the sums would not recover from them.
         } else if (blueprint.solve == Solve::robust) {
             add_instant(memory.sums, p.gram, scratch, rows.rows, rows.unknowns, blueprint.solve_instants);
@@ -228,8 +229,8 @@ template <class S>
 inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, int head, const EstimateScratch<S>& at) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const WindowPosition window_at = newest(rows.samples, ring_length(rows.samples, blueprint.kept), head);
-    evaluate_rows(rows, memory.rings, window_at, at.matrix);
-    if (blueprint.normalise) return columns_rise_above_rounding(rows, memory.rings, window_at, at.matrix, at.work) && normalise_rows(at.matrix, rows.rows, rows.unknowns);
+    evaluate_rows(rows, memory.rings, window_at, at.matrix, at.work);
+    if (blueprint.normalise) return normalise_rows(at.matrix, rows.rows, rows.unknowns);
     if (blueprint.whiten_at.size == 0) return true;
     if (!residual_factor(rows, blueprint.noise, memory.rings, window_at, memory.whitened_at, at.work, at.factor)) return false;
     whiten(at.factor, at.matrix, rows.rows, rows.unknowns + 1);
@@ -285,7 +286,7 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
             const Node of = node(m, instants);
             const int start = oldest.start + of.start;
             S* const matrix = all_rows + m * entries;
-            evaluate_rows(rows, memory.rings, WindowPosition{length, start >= length ? start - length : start}, matrix);
+            evaluate_rows(rows, memory.rings, WindowPosition{length, start >= length ? start - length : start}, matrix, at.work);
             for (int u = 0; u < n; ++u) {
                 for (int r = 0; r < rows.rows; ++r) {
                     S sum = S(0);
@@ -303,7 +304,8 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
 template <class S>
 inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* out) noexcept {
     const RowSet<S>& rows = blueprint.perturbation;
-    evaluate_rows(rows, memory.rings, newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head), scratch);
+    evaluate_rows(rows, memory.rings, newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head), scratch,
+                  scratch + row_entries(rows.rows, rows.unknowns));
     for (int r = 0; r < rows.rows; ++r) out[r] = residual(scratch + r * (rows.unknowns + 1), lumped, rows.unknowns);
 }
 

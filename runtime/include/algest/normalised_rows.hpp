@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT-0
 // Rows of very different size, as those of iterated sums (004): each divided by its largest entry. Columns keep their units until they are
-// solved, so that the condition is that of the rows as they are, and a column that is nothing but rounding is found before scaling hides it.
+// solved, so that the condition is that of the rows as they are.
 #pragma once
 #include <cmath>
-#include <limits>
 
 #include "algest/arithmetic.hpp"
-#include "algest/rows.hpp"
 #include "algest/triangular.hpp"
 
 namespace algest {
@@ -22,33 +20,6 @@ inline bool normalise_rows(S* matrix, int rows, int unknowns) noexcept {
         for (int c = 0; c < unknowns; ++c) largest = larger(largest, S(std::abs(row[c])));
         if (!(largest > S(0)) || !std::isfinite(largest)) return false;
         for (int c = 0; c < width; ++c) row[c] /= largest;
-    }
-    return true;
-}
-
-/// True when every column of P has an entry that cannot be rounding alone: the weights of each table add up, without their signs, to at
-/// most 1, so that rounding leaves at most samples * epsilon of the largest sample. matrix: as evaluate_rows left it; every entry comes from one
-/// term. risen: unknowns scalars of scratch. Cost: signals * samples comparisons, and the terms.
-template <class S>
-inline bool columns_rise_above_rounding(const RowSet<S>& set, const S* rings, WindowPosition at, const S* matrix, S* risen) noexcept {
-    const S rounding = S(set.samples) * std::numeric_limits<S>::epsilon();
-    for (int c = 0; c < set.unknowns; ++c) risen[c] = S(0);
-    for (int s = 0; s < set.signals; ++s) {
-        const S* samples = window(rings, s, at);
-        S size = S(0);
-        for (int k = 0; k < set.samples; ++k) size = larger(size, S(std::abs(samples[k])));
-        for (const Functional& f : set.functionals) {
-            if (f.signal != s || f.table == no_table) continue;
-            for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
-                const Term<S>& term = set.terms[i];
-                if (term.column == set.unknowns) continue;
-                const S entry = matrix[term.row * (set.unknowns + 1) + term.column];
-                if (std::abs(entry) > rounding * std::abs(term.factor) * size) risen[term.column] = S(1);
-            }
-        }
-    }
-    for (int c = 0; c < set.unknowns; ++c) {
-        if (!(risen[c] > S(0))) return false;
     }
     return true;
 }
