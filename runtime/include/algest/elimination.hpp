@@ -378,9 +378,9 @@ inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triang
     if (s.y != no_parameter) try_all(t, work);
     if (s.y != no_parameter && is_tie(s, rows, t.best)) return singular;
     if (!t.best.found || !alone_at(e, s, triangle, width, rows, t.best.x, t.best.y, alone) || !real_at(e, s, t.best.x, t.best.y, alone)) return singular;
-    for (int i = 0; i < s.alone; ++i) parameters[e.alone[s.first_alone + i].parameter] = e.alone[s.first_alone + i].squared != 0 ? std::sqrt(alone[i]) : alone[i];
-    if (s.x != no_parameter) parameters[s.x] = (s.squares & 1U) != 0U ? std::sqrt(t.best.x) : t.best.x;
-    if (s.y != no_parameter) parameters[s.y] = (s.squares & 2U) != 0U ? std::sqrt(t.best.y) : t.best.y;
+    for (int i = 0; i < s.alone; ++i) parameters[e.alone[s.first_alone + i].parameter] = e.alone[s.first_alone + i].squared != 0 ? S(std::sqrt(alone[i])) : alone[i];
+    if (s.x != no_parameter) parameters[s.x] = (s.squares & 1U) != 0U ? S(std::sqrt(t.best.x)) : t.best.x;
+    if (s.y != no_parameter) parameters[s.y] = (s.squares & 2U) != 0U ? S(std::sqrt(t.best.y)) : t.best.y;
     return condition_at(t, t.best.x, t.best.y, work);
 }
 

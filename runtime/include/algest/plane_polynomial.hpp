@@ -102,7 +102,7 @@ inline void add_product_with_slopes(const S* p, PlaneDegrees d, S* by_x, S* by_y
 template <class S>
 inline void scale_to_one(S* p, int size) noexcept {
     S largest = S(0);
-    for (int k = 0; k < size; ++k) largest = std::abs(p[k]) > largest ? std::abs(p[k]) : largest;
+    for (int k = 0; k < size; ++k) largest = std::abs(p[k]) > largest ? S(std::abs(p[k])) : largest;
     if (!(largest > S(0)) || !std::isfinite(largest)) return;
     for (int k = 0; k < size; ++k) p[k] /= largest;
 }

@@ -94,7 +94,7 @@ inline void real_roots(const S* c, int degree, S* scratch, S* roots, S* real) no
     S* const reversed = forward + degree + 1;
     S* const work = reversed + degree + 1;
     S size = S(0);
-    for (int k = 0; k <= degree; ++k) size = std::abs(c[k]) <= size ? size : std::abs(c[k]);   // a NaN is not <=: it stays
+    for (int k = 0; k <= degree; ++k) size = std::abs(c[k]) <= size ? size : S(std::abs(c[k]));   // a NaN is not <=: it stays
     const bool usable = size > S(0) && std::isfinite(size);
     for (int k = 0; k <= degree; ++k) {
         forward[k] = usable ? c[k] / size : S(0);
