@@ -72,10 +72,10 @@ void fir(benchmark::State& state) {
     }
     const RowSet<S> rows = {intervals + 1, 1, 9, 1, {weights.data(), static_cast<int>(weights.size())}, {functionals.data(), 9}, {terms.data(), 9}};
     Ring<S> ring(intervals);
-    std::vector<S> matrix(18);
+    std::vector<S> matrix(18), scratch(18);
     for (auto _ : state) {
         const S* at = ring.push();
-        evaluate_rows(rows, at, WindowPosition{intervals + 1, 0}, matrix.data());
+        evaluate_rows(rows, at, WindowPosition{intervals + 1, 0}, matrix.data(), scratch.data());
         benchmark::DoNotOptimize(matrix.data());
         benchmark::ClobberMemory();
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lab/recording.hpp"
+#include "lab/stretch.hpp"
 
 namespace algest::cli {
 
@@ -48,11 +49,16 @@ struct ReplayOptions {
     std::string scalar = "double";  ///< double, float: as the estimator on the target
     std::optional<double> from;  ///< s
     std::optional<double> to;
+    bool batch = false;          ///< all rows at once
     lab::CsvStyle csv;
     bool json = false;
 };
 /// Runs the estimator over the recording and prints the parameters.
 int replay(const ReplayOptions& options);
+/// The same with all rows at once, where rows hold at single instants. 1: the recording does not determine all parameters. JSON: {"model",
+/// "recording", "samples", "uniform", "instants", "parameters": [{"name", "unit", "value", "sd"}], "condition", "correlated_instants",
+/// "confused": [{"unknowns", "hardly", "text"}]}.
+int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch);
 
 struct SimulateOptions {
     std::string model;

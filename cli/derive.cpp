@@ -9,7 +9,7 @@ namespace algest::cli {
 int derive(const DeriveOptions& options) {
     Diagnostics diagnostics;
     generator::PlanOptions plan_options;
-    plan_options.weights = false;
+    plan_options.weights = options.weights;   // of discrete tables; those of kernels are made anew
     const auto plan = generator::plan_from_model(options.model, plan_options, diagnostics);
     if (!plan) return fail(diagnostics, options.format == "json");
     if (options.weights && options.format != "json")

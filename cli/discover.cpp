@@ -143,7 +143,7 @@ std::string discovery_text(const lab::Discovery& d, const std::string& report_fi
     for (const auto& e : d.doubts) out += fmt::format("  doubt: {}\n", e);
     if (!d.evidence.empty()) out += fmt::format("\n{:<4} {:<22} {:<28} {:>12} {:>14} {:>12}\n", "step", "effect", "equation", "strength [1]", "validation [1]", "gain [1]");
     for (const auto& e : d.evidence) {
-        out += fmt::format("{:<4} {:<22} {:<28} {:>12.3g} {:>14.4g} {:>12.3g}{}\n", e.step, e.effect, e.equation, e.strength, e.validation, e.improvement, e.chosen ? "  chosen" : e.rival ? "  rival" : "");
+        out += fmt::format("{:<4} {:<22} {:<28} {:>12.3g} {:>14.4g} {:>12.3g}{}\n", e.step, e.effect, e.equation, e.strength, e.validation, e.improvement, e.chosen ? (d.effects.empty() ? "  likeliest" : "  chosen") : e.rival ? "  rival" : "");
     }
     out += "\nwhere the model was off (share of the gap)\n";
     for (const auto& w : d.where) out += fmt::format("  {:5.1f} %  {}, {:.4g} s to {:.4g} s, {}\n", 100 * w.share, w.equation, w.from_s, w.to_s, w.region);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // algest generate: writes estimators, or compares them with what is there.
-#include "generator/cost.hpp"
 #include "generator/generate.hpp"
 
 #include <filesystem>
@@ -13,6 +12,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
+#include "generator/cost.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {
@@ -21,26 +21,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A model that was asked for and could be planned.
-struct Planned {
+/// A model that was asked for and could be generated.
+struct Made {
     std::string model;
-    plan::Plan plan;
-    ordered_json cost;   ///< of both engines, the chosen one first
+    generator::Generated generated;
+    ordered_json cost;   ///< of the chosen engine first, then of the other
 };
 
-const char* engine_name(const plan::Plan& plan) { return plan.moments ? "moments" : "fir"; }
-
-ordered_json cost_json(const plan::Plan& plan) {
-    const generator::Cost cost = generator::cost_of(plan);
-    return {{"engine", engine_name(plan)}, {"operations", cost.operations * (cost.push + cost.estimate)}, {"memory", cost.instance_bytes}, {"tables", cost.table_bytes}};
-}
-
-/// What the plan costs, and what the other engine would, unless the model cannot have that.
-ordered_json costs(const std::string& model, const plan::Plan& plan) {
-    ordered_json out = {cost_json(plan)};
-    Diagnostics said_before;
-    const auto other = generator::plan_from_model(model, {plan.scalar, plan.moments ? "fir" : "moments", false}, said_before);
-    if (other && other->moments.has_value() != plan.moments.has_value()) out.push_back(cost_json(*other));
+ordered_json json(const std::vector<generator::EngineCost>& costs) {
+    ordered_json out = ordered_json::array();
+    for (const auto& [engine, cost] : costs) {
+        out.push_back({{"engine", engine}, {"operations", cost.operations * (cost.push + cost.estimate)}, {"memory", cost.instance_bytes}, {"tables", cost.table_bytes}});
+    }
     return out;
 }
 
@@ -53,37 +45,36 @@ std::string text(const ordered_json& costs) {
     return out;
 }
 
-/// Plans every model; those that fail tell `outcome`. Two estimators of one name would share files: then there are none.
-std::vector<Planned> plan_all(const GenerateOptions& options, Outcome& outcome) {
+/// Generates every model; those that fail tell `outcome`. Two of one name would share files: then there are none.
+std::vector<Made> make_all(const GenerateOptions& options, Outcome& outcome) {
     const generator::PlanOptions plan_options{options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64,
                                               options.engine};
-    std::vector<Planned> out;
+    std::vector<Made> out;
     std::map<std::string, std::string> model_of_name;
     bool names_differ = true;
     for (const std::string& model : options.models) {
         Diagnostics diagnostics;
-        auto plan = generator::plan_from_model(model, plan_options, diagnostics);
-        if (plan) {
-            const auto [first, is_new] = model_of_name.emplace(plan->name, model);
+        auto generated = generator::generate(model, plan_options, diagnostics);
+        if (generated) {
+            const auto [first, is_new] = model_of_name.emplace(generated->name, model);
             if (!is_new) {
-                diagnostics.error(model, {}, "its name is `" + plan->name + "`, that of " + first->second + " too",
+                diagnostics.error(model, {}, "its name is `" + generated->name + "`, that of " + first->second + " too",
                                   "a `name` of its own for each model");
                 names_differ = false;
             } else if (!options.check) {
-                for (const std::string& note : plan->notes) diagnostics.note(model, note);
+                for (const std::string& text : generated->notes) diagnostics.note(model, text);
             }
-            ordered_json cost = options.check ? ordered_json() : costs(model, *plan);
-            if (!options.check) diagnostics.note(model, text(cost));
-            out.push_back({model, std::move(*plan), std::move(cost)});
+            ordered_json cost = json(options.check ? std::vector<generator::EngineCost>() : generator::engine_costs(model, plan_options));
+            if (!cost.empty()) diagnostics.note(model, text(cost));
+            out.push_back({model, std::move(*generated), std::move(cost)});
         }
         outcome.take(diagnostics);
     }
-    return names_differ ? std::move(out) : std::vector<Planned>();
+    return names_differ ? std::move(out) : std::vector<Made>();
 }
 
-/// The files of an estimator, with the paths under which they are to lie.
-std::vector<generator::EmittedFile> files_of(const plan::Plan& plan, const std::filesystem::path& directory) {
-    std::vector<generator::EmittedFile> files = generator::emit(plan);
+/// The files with the paths under which they are to lie.
+std::vector<generator::EmittedFile> placed(std::vector<generator::EmittedFile> files, const std::filesystem::path& directory) {
     for (generator::EmittedFile& file : files) file.path = (directory / file.path).string();
     return files;
 }
@@ -140,10 +131,10 @@ ordered_json differences(const std::vector<generator::EmittedFile>& files, bool 
 int generate(const GenerateOptions& options) {
     Outcome outcome;
     ordered_json done = ordered_json::array();
-    for (const Planned& planned : plan_all(options, outcome)) {
+    for (const Made& made : make_all(options, outcome)) {
         Diagnostics diagnostics;
-        const std::vector<generator::EmittedFile> files = files_of(planned.plan, options.directory);
-        ordered_json entry = {{"model", planned.model}, {"name", planned.plan.name}};
+        const std::vector<generator::EmittedFile> files = placed(made.generated.files, options.directory);
+        ordered_json entry = {{"model", made.model}, {"name", made.generated.name}};
         if (options.check) {
             entry["differences"] = differences(files, options.json, diagnostics);
             if (!entry["differences"].empty()) outcome.say_no();
@@ -151,7 +142,7 @@ int generate(const GenerateOptions& options) {
         } else if (write(files, diagnostics)) {
             entry["written"] = ordered_json::array();
             for (const generator::EmittedFile& file : files) entry["written"].push_back(file.path);
-            entry["cost"] = planned.cost;
+            entry["cost"] = made.cost;
             done.push_back(std::move(entry));
         }
         outcome.take(diagnostics);

@@ -92,13 +92,16 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
         ->capture_default_str();
     command->add_option("--from", options.from, "start at this instant of the recording")->type_name("SECONDS");
     command->add_option("--to", options.to, "end at this instant")->type_name("SECONDS");
+    command->add_flag("--batch", options.batch, "all rows at once, for functional = \"derivative\": any increasing `t`, first and last sample too");
     add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "Examples:\n"
         "  algest replay models/positioning_axis.toml emps.csv\n"
         "  algest replay models/positioning_axis.toml emps.csv --from 2 --to 10 -o estimates.csv\n"
-        "  algest replay models/pendulum.toml swing.csv --json");
+        "  algest replay models/pendulum.toml swing.csv --json\n"
+        "  algest replay models/servo.toml lift.csv --batch\n\n"
+        "Exit code: 0 done, 1 --batch found parameters that the recording does not determine, 2 a model or a file is at fault.");
     return command;
 }
 

@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <optional>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress.hpp"
 #include "generator/generate.hpp"
+#include "lab/discrete_system.hpp"
 #include "lab/recording.hpp"
 #include "lab/write_file.hpp"
 
@@ -25,8 +29,52 @@ ordered_json number_or_null(std::optional<double> value) {
     return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
 }
 
+ordered_json candidates_json(const std::vector<lab::EliminationCandidate>& candidates) {
+    ordered_json out = ordered_json::array();
+    for (const lab::EliminationCandidate& c : candidates) {
+        ordered_json values = ordered_json::object();
+        for (const auto& value : c.values) values[value.name] = number_or_null(value.value);
+        out.push_back({{"equations", c.equations}, {"values", std::move(values)}, {"error", number_or_null(c.error)}, {"standing", lab::in_words(c.standing)}});
+    }
+    return out;
+}
+
+std::string candidates_text(const std::vector<lab::EliminationCandidate>& candidates) {
+    std::string out;
+    for (const lab::EliminationCandidate& c : candidates) {
+        std::string values;
+        for (const auto& value : c.values) values += fmt::format("{} = {:.6g}, ", value.name, value.value);
+        out += fmt::format("  {}: {}squared error {:.5g}: {}\n", c.equations, values, c.error, lab::in_words(c.standing));
+    }
+    return out.empty() ? out : "\ncandidates:\n" + out;
+}
+
+ordered_json pairs(const std::vector<std::complex<double>>& values) {
+    ordered_json out = ordered_json::array();
+    for (const std::complex<double> x : values) out.push_back({x.real(), x.imag()});
+    return out;
+}
+
+/// What a discrete-time estimator's last values say; nothing where none was ok.
+std::optional<lab::DiscreteSystem> system_of(const plan::Plan& plan, const lab::ReplaySummary& summary) {
+    if (!plan.discrete || !summary.condition_last) return std::nullopt;
+    std::vector<double> last;
+    for (const std::optional<double> value : summary.last) last.push_back(value.value_or(std::nan("")));
+    return lab::discrete_system(plan, last);
+}
+
+void add_system(const plan::Plan& plan, const lab::ReplaySummary& summary, ordered_json& out) {
+    const auto system = system_of(plan, summary);
+    out["poles_s"] = system ? pairs(system->poles_s) : ordered_json(nullptr);
+    if (!system) return;
+    out["poles_z"] = pairs(system->poles_z);
+    out["zeros_z"] = pairs(system->zeros_z);
+    out["z"] = {{"a", system->a}, {"b", system->b}};
+    out["q"] = {{"A", system->A}, {"B", system->B}};
+}
+
 ordered_json summary_json(const ReplayOptions& options, const plan::Plan& plan, const lab::ReplaySummary& summary,
-                          std::size_t samples) {
+                          const lab::Replay& replay) {
     ordered_json parameters = ordered_json::array();
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
         parameters.push_back({{"name", plan.parameters[p].name},
@@ -37,17 +85,29 @@ ordered_json summary_json(const ReplayOptions& options, const plan::Plan& plan, 
     }
     ordered_json status = ordered_json::object();
     for (std::size_t s = 0; s < summary.count.size(); ++s) status[name(static_cast<Status>(s))] = summary.count[s];
-    return {{"model", options.model},
+    ordered_json out = {{"model", options.model},
             {"recording", options.recording},
-            {"samples", samples},
+            {"samples", replay.samples()},
             {"period_s", plan.period},
             {"parameters", std::move(parameters)},
             {"status", std::move(status)},
             {"condition",
              {{"median", number_or_null(summary.condition_median)}, {"last", number_or_null(summary.condition_last)}}}};
+    if (plan.steady) out["operating_points"] = replay.points.count();
+    if (plan.elimination) out["candidates"] = candidates_json(replay.candidates);
+    if (plan.discrete) add_system(plan, summary, out);
+    return out;
 }
 
 std::string number_text(std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : "-"; }
+
+/// Continuous-time poles, one a line.
+std::string poles_text(const plan::Plan& plan, const lab::ReplaySummary& summary) {
+    const auto system = system_of(plan, summary);
+    std::string out = system ? "\npoles [rad/s]\n" : "";
+    for (const std::complex<double> s : system ? system->poles_s : std::vector<std::complex<double>>()) out += fmt::format("{:>12.6g}  {:>+12.6g} i\n", s.real(), s.imag());
+    return out;
+}
 
 std::string summary_text(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary) {
     std::size_t width = std::string("parameter").size();
@@ -65,7 +125,9 @@ std::string summary_text(const plan::Plan& plan, const lab::Replay& replay, cons
     }
     out += fmt::format("\ncondition: median {}, last {}\n", number_text(summary.condition_median),
                        number_text(summary.condition_last));
-    return out;
+    out += poles_text(plan, summary);
+    if (plan.steady) out += fmt::format("{} operating points\n", replay.points.count());
+    return out + candidates_text(replay.candidates);
 }
 
 }  // namespace
@@ -81,6 +143,11 @@ int replay(const ReplayOptions& options) {
                           "two instants of the recording's `t`, in s");
         return fail(diagnostics, options.json);
     }
+    if (options.batch && !options.output.empty()) {
+        diagnostics.error("algest replay", {}, "-o writes what an estimator says at every sample, and --batch has one answer", "one of the two");
+        return fail(diagnostics, options.json);
+    }
+    if (options.batch) return replay_batch(options, stretch);
 
     const auto plan = generator::plan_from_model(options.model, {options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64, {}}, diagnostics);
     const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);
@@ -97,6 +164,7 @@ int replay(const ReplayOptions& options) {
         lab::add_deviations(*plan, *recording, options.output.empty() ? 1 : deviations_in_csv, *replay, [&](double share) { progress.show(share); });
     }
     if (!replay) return fail(diagnostics, options.json);
+    if (const auto advice = lab::advice_on_domain(*plan, *replay)) diagnostics.note(options.model, *advice);
     if (!options.output.empty() && !lab::write_file(options.output, lab::replay_csv(*plan, *replay), diagnostics)) {
         return fail(diagnostics, options.json);
     }
@@ -104,8 +172,10 @@ int replay(const ReplayOptions& options) {
     if (!options.output.empty()) note("wrote " + options.output);
 
     const lab::ReplaySummary summary = lab::summarise(*replay);
+    const bool answered = summary.count[static_cast<std::size_t>(Status::ok)] > 0;
+    if (const auto missing = lab::what_is_missing(*plan, replay->points, answered)) note(*missing);
     if (options.json) {
-        print_json(summary_json(options, *plan, summary, replay->samples()));
+        print_json(summary_json(options, *plan, summary, *replay));
     } else {
         print(summary_text(*plan, *replay, summary));
     }

@@ -9,6 +9,7 @@
 
 #include "algest/estimator.hpp"
 #include "algest/growing_moments.hpp"
+#include "generator/elimination_data.hpp"
 #include "generator/plan.hpp"
 
 namespace algest::plan {
@@ -73,8 +74,10 @@ struct BlueprintData {
     std::vector<algest::NoiseChannel<S>> noise;
     std::vector<S> whiten_at;
     algest::LowPass<S> ratio;
+    bool normalise;
     bool rows_published;
     int shortest;
+    EliminationData<S> elimination = {};
 
     /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
     algest::Blueprint<S> view() const {
@@ -89,6 +92,8 @@ struct BlueprintData {
                 {whiten_at.data(), static_cast<int>(whiten_at.size())},
                 ratio,
                 row_set(perturbation),
+                normalise,
+                elimination.view(),
                 rows_published,
                 shortest};
     }
@@ -136,7 +141,7 @@ MomentData<S, A> make_moments(const Plan& plan) {
             if constexpr (std::is_same_v<A, double>) data.coefficients.push_back(table.coefficients[k]);
             else data.coefficients.push_back({static_cast<S>(table.coefficients[k]), static_cast<S>(table.rests[k])});
         }
-        data.ends.push_back({static_cast<S>(table.oldest), static_cast<S>(table.newest), static_cast<S>(table.of_one), table.degree});
+        data.ends.push_back({static_cast<S>(table.oldest), static_cast<S>(table.newest), static_cast<S>(table.of_one), static_cast<S>(table.gain), table.degree});
         if (plan.moments->shortest == 0) continue;
         data.growing.insert(data.growing.end(), table.growing.begin(), table.growing.end());
         data.growing_newest.insert(data.growing_newest.end(), table.growing_newest.begin(), table.growing_newest.end());
@@ -165,6 +170,7 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
                           {},
                           {},
                           {},
+                          plan.normalise,
                           plan.moments.has_value(),
                           plan.moments ? plan.moments->shortest : 0};
     data.tables.reserve(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
@@ -181,6 +187,7 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
     if (plan.whiten) {
         for (const Lumped& u : plan.lumped) data.whiten_at.push_back(static_cast<S>(u.initial));
     }
+    data.elimination = make_elimination<S>(plan.elimination);
     if (plan.ratio) {
         const auto s = [](double x) { return static_cast<S>(x); };
         const std::vector<double>& t = plan.ratio->transition;

@@ -4,7 +4,9 @@
 #include "algest/boxcar.hpp"
 #include "algest/delay_line.hpp"
 #include "algest/growing_moments.hpp"
+#include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
+#include "generator/cpp_text.hpp"
 
 namespace algest::generator {
 
@@ -21,7 +23,7 @@ int instance_bytes(const Plan& plan) {
     const int signals = plan.rings();
     int scalars = sum_scalars(plan.solve, unknowns, plan.solve_instants);
     if (plan.moments) {
-        scalars += moment_ring(signals, plan.samples()) + (rebuilt(plan) + 1) * signals;
+        scalars += moment_ring(signals, plan.samples()) + 2 * (rebuilt(plan) + 1) * signals;
         scalars += published_row_scalars(plan.solve, static_cast<int>(plan.rows.size()), unknowns, static_cast<int>(plan.perturbation.size()));
     } else {
         scalars += ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + published_scalars(plan.solve, unknowns);
@@ -35,17 +37,25 @@ int instance_bytes(const Plan& plan) {
         scalars += boxcar_scalars(signals);
         bytes += static_cast<int>(sizeof(BoxcarProgress));
     }
+    if (plan.steady) {
+        scalars += steady_scalars(static_cast<int>(plan.steady->averaged.size()));
+        bytes += static_cast<int>(sizeof(SteadyProgress)) + 8;
+    }
     if (plan.delayed()) {
         scalars += static_cast<int>(plan.inputs.size());
         for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
+        bytes += 8;
+    }
+    if (plan.longest_wait() > 0) {
+        scalars += (plan.longest_wait() + 1) * static_cast<int>(plan.inputs.size());
         bytes += 8;
     }
     if (!plan.past.empty()) {
         scalars += static_cast<int>(plan.delayed_inputs().size()) * plan.delay_length();
         bytes += static_cast<int>(sizeof(DelayProgress));
     }
-    bytes += scalars * scalar_bytes(plan);
-    const int alignment = plan.moments && !twofold(plan) ? 8 : scalar_bytes(plan);
+    bytes += scalars * scalar_bytes(plan.scalar);
+    const int alignment = plan.moments && !twofold(plan) ? 8 : scalar_bytes(plan.scalar);
     return (bytes + alignment - 1) / alignment * alignment;
 }
 
@@ -60,13 +70,11 @@ long evaluated(const plan::RowData<double>& rows) {
 long moment_rows(const Plan& plan, const plan::RowData<double>& rows) {
     long out = 0;
     for (const long d : plan.moments->degrees) out += d * (d + 1) / 2;
-    for (const Functional& f : rows.functionals) out += f.table == no_table ? 0 : plan.moments->tables[f.table].degree + 4;
+    for (const Functional& f : rows.functionals) out += f.table == no_table ? 0 : plan.moments->tables[f.table].degree + 5;
     return out;
 }
 
 }  // namespace
-
-int scalar_bytes(const Plan& plan) { return plan.scalar == plan::Scalar::float64 ? 8 : 4; }
 
 Cost cost_of(const Plan& plan) {
     const plan::RowData<double> rows = plan::make_rows<double>(plan.rows, static_cast<int>(plan.lumped.size()));
@@ -82,17 +90,31 @@ Cost cost_of(const Plan& plan) {
         long powers = d;
         for (const long degree : plan.moments->degrees) powers += degree + 1;
         out.push = (rebuilt(plan) + 2) * powers + out.rows + (plan.perturbation.empty() ? 0 : moment_rows(plan, perturbation));
-        out.table_bytes = tables * ((d + 1) * accumulator_bytes + 3 * scalar_bytes(plan) + static_cast<int>(sizeof(int)));
+        out.table_bytes = tables * ((d + 1) * accumulator_bytes + 4 * scalar_bytes(plan.scalar) + static_cast<int>(sizeof(int)));
         if (plan.moments->shortest > 0) {   // the dearest sample: in the growing window and in the frames of the sliding one
             for (const long degree : plan.moments->degrees) out.push += degree + 1;
-            out.push += evaluated(rows) * (d + 2) * (d + 2);
+            out.push += evaluated(rows) * (d + 2) * (d + 3);
             out.table_bytes += tables * ((d + 1) * (d + 2) * accumulator_bytes + 1);
         }
     } else {
         out.rows = evaluated(rows) * plan.samples();
         out.push = square ? 0 : out.rows;
         out.estimate = (square ? out.rows : 0) + evaluated(perturbation) * plan.samples();
-        out.table_bytes = tables * plan.samples() * scalar_bytes(plan);
+        out.table_bytes = tables * plan.samples() * scalar_bytes(plan.scalar);
+    }
+    return out;
+}
+
+std::vector<EngineCost> engine_costs(const std::string& path, PlanOptions options) {
+    options.weights = false;
+    std::vector<EngineCost> out;
+    for (int k = 0; k < 2; ++k) {
+        Diagnostics diagnostics;   // whoever generates says the same
+        const auto plan = plan_from_model(path, options, diagnostics);
+        if (!plan) break;
+        const std::string engine = plan->moments ? "moments" : "fir";
+        if (out.empty() || out[0].engine != engine) out.push_back({engine, cost_of(*plan)});
+        options.engine = plan->moments ? "fir" : "moments";
     }
     return out;
 }

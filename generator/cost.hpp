@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What an estimator costs on its controller: multiply-adds, bytes of memory and of tables, as the runtime's loops and the emitted class have them.
 #pragma once
+#include <string>
+#include <vector>
+
+#include "generator/generate.hpp"
 #include "generator/plan.hpp"
 
 namespace algest::generator {
@@ -16,7 +20,14 @@ struct Cost {
 };
 Cost cost_of(const plan::Plan& plan);
 
-int scalar_bytes(const plan::Plan& plan);
+struct EngineCost {
+    std::string engine;   ///< "fir" or "moments"
+    Cost cost;
+};
+/// Of the model's estimator, then of what the other engine would make of it, unless the model cannot have that. Empty where there is no estimator.
+/// Cost: two plans.
+std::vector<EngineCost> engine_costs(const std::string& path, PlanOptions options);
+
 /// Of an accumulator of moments; both hold eight.
 constexpr int accumulator_bytes = 8;
 

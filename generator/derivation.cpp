@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "generator/annihilator.hpp"
+#include "generator/discrete_derivation.hpp"
+#include "generator/elimination_text.hpp"
 #include "generator/exact.hpp"
 #include "generator/formula.hpp"
 #include "generator/generate.hpp"
@@ -74,8 +76,16 @@ std::string expansion_tex(const std::vector<plan::LeibnizTerm>& terms) {
     return sum.text();
 }
 
+/// "1/2, 1/2"
+std::string joined(const std::vector<double>& weights) {
+    std::string out;
+    for (const double w : weights) out += (out.empty() ? "" : ", ") + exact::text(exact::from_double(w));
+    return out;
+}
+
 /// The kernel in time: sum of c (t-tau)^gamma (-tau)^j / gamma! after the division that makes it proper.
 std::string time_form(const Plan& plan, const plan::Table& table) {
+    if (plan.functional == plan::Functional::derivative) return "the weights " + joined(table.weights) + ", oldest sample first";
     for (const plan::Equation& e : plan.equations) {
         if (table.perturbation > 0) return "coefficient c_" + std::to_string(table.perturbation) + " of the perturbation, from rows with kappa = 0";
         if (e.n != table.n || e.kappa != table.kappa) continue;
@@ -106,6 +116,7 @@ std::string solve_text(const Plan& plan) {
                                      exact::decimal(exact::from_text(plan.ratio->zeta))
                                : "");
         case Solve::least_squares: return plan.keep == 1.0 ? "least squares over all rows since reset" : "least squares over all rows since reset, with forgetting";
+        case Solve::elimination: return std::string("least squares over all rows since reset under polynomial constraints, by elimination") + (plan.keep == 1.0 ? "" : ", with forgetting");
     }
     return "?";
 }
@@ -122,13 +133,17 @@ std::string annihilator_text(const plan::Equation& e) {
     return "Pi = d^" + order + "/ds^" + order + s;
 }
 
-Rational window(const Plan& plan) { return exact::from_text(plan.period_text) * plan.decimate * plan.intervals; }
+Rational window(const Plan& plan) { return plan.steady ? exact::from_text(plan.period_text) * plan.steady->block : exact::from_text(plan.period_text) * plan.decimate * plan.intervals; }
 
 Data common(const Plan& plan) {
     Data d;
     d.set("version", std::string(ALGEST_VERSION));
     d.set("name", plan.name);
     d.set("window", exact::decimal(window(plan)));
+    d.set("annihilates", plan.functional == plan::Functional::annihilator);
+    d.set("differentiates", plan.functional == plan::Functional::derivative);
+    d.set("averages", plan.steady.has_value());
+    d.set("held", plan.functional == plan::Functional::derivative && plan.intervals > 0);
     const bool second = !plan.equations.empty() && plan.equations.front().form == 2;
     d.set("division", std::string(second ? "differentiates p-1 times more than row 1 and divides by s^(kappa+n+1)" : "divides by s^(kappa+n+p)"));
     d.set("division_tex", std::string(second ? "differentiates $p-1$ times more than row 1 and is divided by $s^{\\kappa+n+1}$" : "is divided by $s^{\\kappa+n+p}$"));
@@ -152,7 +167,7 @@ Data equations_data(const Plan& plan) {
         q.set("kappa", std::to_string(e.kappa));
         q.set("order", annihilator_order(e));
         q.set("way", e.divided ? "Divided by the leading coefficient " + e.leading + "." : std::string("Used as written: it is linear in the unknowns."));
-        q.set("delayed", e.delayed);
+        q.set("late", e.delayed && plan.functional == plan::Functional::annihilator);
         q.set("annihilator", annihilator_text(e));
         q.set("perturbation", e.kappa == 0 ? std::string("") : e.kappa == 1 ? std::string(" and a constant perturbation") : " and a polynomial perturbation of degree " + std::to_string(e.kappa - 1));
         DataList operators;
@@ -262,6 +277,7 @@ Data rows_data(const Plan& plan, const std::vector<plan::Row>& of) {
 }  // namespace
 
 std::string derivation_text(const Plan& plan) {
+    if (plan.discrete) return discrete_derivation_text(plan, solve_text(plan));
     Data d = common(plan);
     d.set("summary", plan.summary);
     d.set("has_summary", !plan.summary.empty());
@@ -296,10 +312,31 @@ std::string derivation_text(const Plan& plan) {
     d.set("noise", listed(noise));
     d.set("uncertain", plan.uncertain());
     d.set("kernels", kernels_data(plan));
+    DataList stages;
+    for (const std::string& text : elimination_stages(plan)) {
+        Data stage;
+        stage.set("stage", text);
+        stages.push_back(stage);
+    }
+    d.set("stages", listed(stages));
+    d.set("eliminates", plan.elimination.has_value());
+    d.set("block", std::to_string(plan.steady ? plan.steady->block : 0));
     return render("report/derivation.md.mustache", d);
 }
 
+namespace {
+
+/// A term's signal under the functional of its row.
+std::string functional_tex(const Plan& plan, const plan::Row& row, const plan::RowTerm& t) {
+    const std::string signal = tex_of(signal_of(plan, t));
+    if (plan.functional == plan::Functional::derivative) return t.signal >= 0 && plan.window_signals[static_cast<std::size_t>(t.signal)].held ? "\\overline{" + signal + "}" : signal;
+    return "F_{" + std::to_string(t.derivative) + "," + std::to_string(row.p) + "}\\left[" + signal + "\\right]";
+}
+
+}  // namespace
+
 std::string derivation_latex(const Plan& plan) {
+    if (plan.discrete) return discrete_derivation_latex(plan);
     Data d = common(plan);
     std::string name_tex;
     for (const char c : plan.name) name_tex += c == '_' ? std::string("\\_") : std::string(1, c);
@@ -313,7 +350,7 @@ std::string derivation_latex(const Plan& plan) {
         SignedSum unknown_side("\\,", true);
         SignedSum known_side("\\,", true);
         for (const plan::RowTerm& t : row.terms) {
-            const std::string functional = "F_{" + std::to_string(t.derivative) + "," + std::to_string(row.p) + "}\\left[" + tex_of(signal_of(plan, t)) + "\\right]";
+            const std::string functional = functional_tex(plan, row, t);
             if (t.lumped < 0) known_side.add(exact::from_text(t.coefficient), functional);
             else unknown_side.add(exact::from_text(t.coefficient), formula::latex_name(plan.lumped[static_cast<std::size_t>(t.lumped)].name) + "\\," + functional);
         }
@@ -344,7 +381,25 @@ std::string derivation_latex(const Plan& plan) {
     return render("report/derivation.tex.mustache", d);
 }
 
+namespace {
+
+/// Those of the table times the term's coefficient where they are no polynomial's.
+std::vector<double> weights_of(const Plan& plan, const plan::RowTerm& t) {
+    if (t.kernel.empty()) {
+        const Rational c = exact::from_text(t.coefficient);
+        std::vector<double> out;
+        if (t.table < 0) return {exact::nearest(c, plan.scalar)};
+        for (const double w : plan.tables[static_cast<std::size_t>(t.table)].weights) out.push_back(exact::nearest(c * exact::from_double(w), plan.scalar));
+        return out;
+    }
+    const plan::Hold hold = t.signal < 0 ? plan::Hold::linear : plan.window_signals[static_cast<std::size_t>(t.signal)].hold;
+    return kernel::weights(kernel::coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar);
+}
+
+}  // namespace
+
 std::string derivation_json(const Plan& plan, bool weights) {
+    if (plan.discrete) return discrete_derivation_json(plan, solve_text(plan), weights);
     using Json = nlohmann::ordered_json;
     Json out;
     out["name"] = plan.name;
@@ -370,9 +425,8 @@ std::string derivation_json(const Plan& plan, bool weights) {
                 term["derivative"] = t.derivative;
                 term["kernel"] = t.kernel;
                 if (weights) {
-                    const plan::Hold hold = t.signal < 0 ? plan::Hold::linear : plan.window_signals[static_cast<std::size_t>(t.signal)].hold;
                     Json list = Json::array();
-                    for (const double w : kernel::weights(kernel::coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar)) list.push_back(exact::hexadecimal(w));
+                    for (const double w : weights_of(plan, t)) list.push_back(exact::hexadecimal(w));
                     term["weights"] = std::move(list);
                 }
                 terms.push_back(std::move(term));

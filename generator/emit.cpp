@@ -5,6 +5,8 @@
 
 #include "generator/blueprint.hpp"
 #include "generator/cost.hpp"
+#include "generator/cpp_text.hpp"
+#include "generator/elimination_text.hpp"
 #include "generator/exact.hpp"
 #include "generator/generate.hpp"
 #include "generator/plan_hash.hpp"
@@ -21,20 +23,8 @@ namespace {
 using plan::Op;
 using plan::Plan;
 
-std::string scalar_name(const Plan& plan) { return plan.scalar == plan::Scalar::float64 ? "double" : "float"; }
-
-/// A literal of the plan's scalar: hexadecimal, exact.
-std::string literal(double value, const Plan& plan) {
-    return exact::hexadecimal(value) + (plan.scalar == plan::Scalar::float32 ? "f" : "");
-}
-
-std::string limit_literal(double value, const Plan& plan) {
-    if (std::isfinite(value)) return literal(value, plan);
-    return std::string(value < 0 ? "-" : "") + "std::numeric_limits<Scalar>::max()";
-}
-
 std::string accumulator_name(const Plan& plan) {
-    return plan.moments->accumulators == plan::Accumulators::float64 ? "double" : "Twofold<" + scalar_name(plan) + ">";
+    return plan.moments->accumulators == plan::Accumulators::float64 ? "double" : "Twofold<" + scalar_name(plan.scalar) + ">";
 }
 
 std::string solve_name(const Plan& plan) {
@@ -42,6 +32,7 @@ std::string solve_name(const Plan& plan) {
         case Solve::square: return "square";
         case Solve::robust: return "robust";
         case Solve::least_squares: return "least_squares";
+        case Solve::elimination: return "elimination";
     }
     return "?";
 }
@@ -55,7 +46,12 @@ std::string quadrature_name(const Plan& plan) {
     return "?";
 }
 
-std::string unit_text(const std::string& unit) { return unit.empty() ? "unit not declared" : "[" + unit + "]"; }
+/// True where an operation's time is libm's to say.
+bool uses_libm(const plan::Tape& tape) {
+    return std::any_of(tape.operations.begin(), tape.operations.end(), [](const plan::Operation& o) {
+        return o.op == Op::exp || o.op == Op::log || o.op == Op::sin || o.op == Op::cos || o.op == Op::tan || o.op == Op::pow;
+    });
+}
 
 /// A tape as C++: one constant per operation that computes something, inputs by their names.
 class PrintedTape {
@@ -72,14 +68,13 @@ public:
             }
             if (o.op == Op::constant) {
                 const bool whole = std::floor(o.value) == o.value && std::abs(o.value) < 1e6;
-                texts_.push_back(whole ? "Scalar(" + std::to_string(static_cast<long>(o.value)) + ")" : literal(o.value, plan));
+                texts_.push_back(whole ? "Scalar(" + std::to_string(static_cast<long>(o.value)) + ")" : literal(o.value, plan.scalar));
                 continue;
             }
             Data line;
             line.set("number", std::to_string(k));
             line.set("expression", expression(o));
             lines_.push_back(line);
-            uses_libm_ = uses_libm_ || o.op == Op::exp || o.op == Op::log || o.op == Op::sin || o.op == Op::cos || o.op == Op::tan || o.op == Op::pow;
             texts_.push_back(prefix_ + std::to_string(k));
         }
         for (const int r : tape.results) results_.push_back(texts_[static_cast<std::size_t>(r)]);
@@ -87,8 +82,6 @@ public:
 
     Data lines() const { return listed(lines_); }
     const std::vector<std::string>& results() const { return results_; }
-    bool uses_libm() const { return uses_libm_; }
-
 private:
     std::string expression(const plan::Operation& o) const {
         const std::string a = o.a < 0 ? "" : texts_[static_cast<std::size_t>(o.a)];
@@ -122,7 +115,6 @@ private:
     std::vector<std::string> texts_;
     std::vector<std::string> results_;
     DataList lines_;
-    bool uses_libm_ = false;
 };
 
 Data head(const Plan& plan, const std::string& hash) {
@@ -134,7 +126,7 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("has_summary", !plan.summary.empty());
     d.set("source", plan.source);
     d.set("has_source", !plan.source.empty());
-    d.set("scalar", scalar_name(plan));
+    d.set("scalar", scalar_name(plan.scalar));
     d.set("engine", std::string(plan.moments ? "moments" : "fir"));
     d.set("moments", plan.moments.has_value());
     d.set("windows", plan.name + (plan.moments ? "_tables::moment_blueprint, memory(), moments()" : "_tables::blueprint, memory()"));
@@ -151,7 +143,8 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("window_signals", std::to_string(plan.window_signals.size()));
     d.set("kept", std::to_string(plan.kept));
     d.set("perturbation_rows", std::to_string(plan.perturbation.size()));
-    d.set("lumped_count", std::to_string(plan.lumped.size() + plan.perturbation.size()));
+    d.set("lumped_count", std::to_string(std::max(plan.lumped.size() + plan.perturbation.size(), plan.parameters.size())));
+    set_elimination(plan, d);
     d.set("most_rows", std::to_string(std::max(plan.rows.size(), plan.perturbation.size())));
     d.set("decimate", std::to_string(plan.decimate));
     d.set("decimated", plan.decimate > 1);
@@ -161,6 +154,8 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("limited_deviation", plan.deviation_limit > 0.0);
     d.set("deviation_limit_text", exact::decimal(exact::from_double(plan.deviation_limit)));
     d.set("has_perturbation", !plan.perturbation.empty());
+    d.set("discrete", plan.discrete.has_value());
+    d.set("normalise", plan.normalise);
     d.set("rows", std::to_string(plan.rows.size()));
     d.set("unknowns", std::to_string(plan.lumped.size()));
     d.set("instants", std::to_string(plan.solve_instants));
@@ -185,7 +180,7 @@ void set_cost(const Plan& plan, Data& d) {
         const long samples = static_cast<long>(plan.samples()) * node_count(plan.solve_instants);
         const long noisy = static_cast<long>(blueprint.noisy.size());
         d.set("uncertainty_macs", std::to_string(samples * (noisy_terms + noisy * rows * unknowns * (unknowns + 1)) + cost.rows * (square ? 1 : node_count(plan.solve_instants))));
-        d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan)));
+        d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan.scalar)));
         d.set("whiten_macs", std::to_string(static_cast<long>(plan.samples()) * (noisy_terms + noisy * rows * (rows + unknowns))));
     }
     d.set("spare", std::to_string(spare_samples));
@@ -195,6 +190,29 @@ void set_cost(const Plan& plan, Data& d) {
     const int first_ok = plan.samples_to_first_estimate();
     d.set("first_ok", std::to_string(first_ok));
     d.set("first_ok_s", exact::decimal(exact::from_text(plan.period_text) * (first_ok - 1)));
+}
+
+/// Operating points: what is averaged, and how steady it has to be.
+void set_steady(const Plan& plan, Data& d) {
+    d.set("steady", plan.steady.has_value());
+    if (!plan.steady) return;
+    const plan::SteadyState& steady = *plan.steady;
+    const PrintedTape tape(steady.quantities, plan, "q", [&](Op, int k) { return "s." + plan.inputs[static_cast<std::size_t>(k)].name; });
+    DataList quantities;
+    for (std::size_t k = 0; k < steady.averaged.size(); ++k) {
+        const plan::Averaged& a = steady.averaged[k];
+        Data q;
+        q.set("value", tape.results()[k]);
+        q.set("tolerance", std::isfinite(a.tolerance) ? literal(a.tolerance, plan.scalar) : std::string("std::numeric_limits<Scalar>::infinity()"));
+        q.set("what", a.name + " " + unit_text(a.unit));
+        quantities.push_back(q);
+    }
+    d.set("quantity_lines", tape.lines());
+    d.set("quantities", listed(quantities));
+    d.set("quantity_count", std::to_string(quantities.size()));
+    d.set("block", std::to_string(steady.block));
+    d.set("stretch", steady.stretches < 0 ? std::string("Scalar(1)") : "s." + plan.inputs[static_cast<std::size_t>(steady.stretches)].name);
+    d.set("stretch_name", steady.stretches < 0 ? std::string() : plan.inputs[static_cast<std::size_t>(steady.stretches)].name);
 }
 
 /// Delay lines: one an input of which some past is read, all of one length.
@@ -227,28 +245,28 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
     Data d = head(plan, hash);
     set_cost(plan, d);
     d.set("delayed", plan.delayed());
+    d.set("aligned", plan.longest_wait() > 0);
+    d.set("longest_wait", std::to_string(plan.longest_wait()));
+    d.set("differentiates", plan.functional == plan::Functional::derivative);
+    d.set("late", plan.delayed() && plan.functional == plan::Functional::annihilator);
     DataList inputs;
     DataList filters;
     for (const plan::Input& input : plan.inputs) {
-        const bool limited = std::isfinite(input.min) || std::isfinite(input.max);
-        Data i;
-        i.set("name", input.name);
-        i.set("unit", unit_text(input.unit));
-        i.set("limited", limited);
-        i.set("min", std::isfinite(input.min) ? exact::text(exact::from_double(input.min)) : std::string("-inf"));
-        i.set("max", std::isfinite(input.max) ? exact::text(exact::from_double(input.max)) : std::string("inf"));
-        i.set("accepted", limited ? "within(s." + input.name + ", " + limit_literal(input.min, plan) + ", " + limit_literal(input.max, plan) + ")"
-                                  : "std::isfinite(s." + input.name + ")");
+        Data i = input_data(input, plan.scalar);
+        i.set("waits", input.wait > 0);
+        i.set("wait", std::to_string(input.wait));
         inputs.push_back(i);
         if (input.differentiated) {
-            i.set("rate", literal(plan.rate, plan));
+            i.set("rate", literal(plan.rate, plan.scalar));
             filters.push_back(i);
         }
     }
     d.set("inputs", listed(inputs));
     d.set("filters", listed(filters));
 
+    set_steady(plan, d);
     const PrintedTape signals(plan.signals, plan, "v", [&](Op op, int k) {
+        if (plan.steady) return "means[" + std::to_string(k) + "]";
         if (k >= static_cast<int>(plan.inputs.size())) return "past" + std::to_string(k - static_cast<int>(plan.inputs.size()));
         const std::string& name = plan.inputs[static_cast<std::size_t>(k)].name;
         return op == Op::input ? "s." + name : op == Op::previous ? "previous_." + name : "derivative_" + name;
@@ -268,7 +286,7 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
 
     const PrintedTape map(plan.parameter_map, plan, "m", [](Op, int k) { return "lumped[" + std::to_string(k) + "]"; });
     d.set("map_lines", map.lines());
-    d.set("libm", signals.uses_libm() || map.uses_libm());
+    d.set("libm", uses_libm(plan.signals) || uses_libm(plan.parameter_map) || (plan.steady && uses_libm(plan.steady->quantities)));
     DataList parameters;
     DataList estimated;
     std::string names;
@@ -278,7 +296,7 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
         i.set("name", p.name);
         i.set("unit", unit_text(p.unit) + (p.from == p.name ? "" : (p.perturbation ? ": " : " = ") + p.from));
         i.set("unit_alone", unit_text(p.unit));
-        i.set("initial", literal(p.initial, plan));
+        i.set("initial", literal(p.initial, plan.scalar));
         i.set("value", map.results()[k]);
         parameters.push_back(i);
         if (p.perturbation) continue;
@@ -360,7 +378,7 @@ void set_rows(const Plan& plan, const plan::RowData<double>& rows, const std::st
         Data i;
         i.set("row", std::to_string(term.row));
         i.set("column", std::to_string(term.column));
-        i.set("factor", literal(term.factor, plan));
+        i.set("factor", literal(term.factor, plan.scalar));
         terms.push_back(i);
     }
     d.set(prefix + "terms", listed(terms));
@@ -369,7 +387,7 @@ void set_rows(const Plan& plan, const plan::RowData<double>& rows, const std::st
 
 std::string joined(const std::vector<double>& numbers, const Plan& plan) {
     std::string out;
-    for (const double x : numbers) out += (out.empty() ? "" : ", ") + literal(x, plan);
+    for (const double x : numbers) out += (out.empty() ? "" : ", ") + literal(x, plan.scalar);
     return out;
 }
 
@@ -384,7 +402,7 @@ std::string doubles(const std::vector<double>& numbers) {
 std::string accumulators(const plan::MomentTable& table, const Plan& plan) {
     if (table.rests.empty()) return doubles(table.coefficients);
     std::string out;
-    for (std::size_t k = 0; k < table.rests.size(); ++k) out += (k == 0 ? "{" : ", {") + literal(table.coefficients[k], plan) + ", " + literal(table.rests[k], plan) + "}";
+    for (std::size_t k = 0; k < table.rests.size(); ++k) out += (k == 0 ? "{" : ", {") + literal(table.coefficients[k], plan.scalar) + ", " + literal(table.rests[k], plan.scalar) + "}";
     return out;
 }
 
@@ -399,7 +417,7 @@ void set_moments(const Plan& plan, Data& d) {
         i.set("growing", doubles(table.growing));
         i.set("growing_newest", doubles(table.growing_newest));
         i.set("derivative", std::to_string(table.derivative));
-        i.set("ends", joined({table.oldest, table.newest, table.of_one}, plan) + ", " + std::to_string(table.degree));
+        i.set("ends", joined({table.oldest, table.newest, table.of_one, table.gain}, plan) + ", " + std::to_string(table.degree));
         list.push_back(i);
     }
     d.set("moment_tables", listed(list));
@@ -411,7 +429,7 @@ void set_moments(const Plan& plan, Data& d) {
     const std::size_t count = static_cast<std::size_t>(plan.moments->degree) + 1;
     d.set("growing_count", std::to_string(plan.tables.size() * count * count));
     d.set("shortest", std::to_string(plan.moments->shortest));
-    d.set("step", literal(plan.moments->step, plan));
+    d.set("step", literal(plan.moments->step, plan.scalar));
 }
 
 std::string tables_header(const Plan& plan, const std::string& hash) {
@@ -442,7 +460,7 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
         i.set("signal", std::to_string(c.signal));
         i.set("partial", c.partial == no_partial ? std::string("no_partial") : std::to_string(c.partial));
         i.set("lag", std::to_string(c.lag));
-        i.set("factor", literal(c.factor, plan));
+        i.set("factor", literal(c.factor, plan.scalar));
         i.set("text", plan.inputs[static_cast<std::size_t>(blueprint.noisy[c.input])].name + " in " + plan.window_signals[c.signal].text);
         channels.push_back(i);
     }
@@ -450,9 +468,9 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
     d.set("noise_count", std::to_string(blueprint.noise.size()));
     d.set("noisy_inputs", std::to_string(blueprint.noisy.size()));
     d.set("whiten_at", joined(blueprint.whiten_at, plan));
-    d.set("keep", literal(plan.keep, plan));
-    d.set("condition_limit", literal(plan.condition_limit, plan));
-    d.set("deviation_limit", literal(plan.deviation_limit, plan));
+    d.set("keep", literal(plan.keep, plan.scalar));
+    d.set("condition_limit", literal(plan.condition_limit, plan.scalar));
+    d.set("deviation_limit", literal(plan.deviation_limit, plan.scalar));
     d.set("ratio_numbers", plan.ratio ? "{true, {" + joined(plan.ratio->transition, plan) + "}, {" + joined(plan.ratio->before, plan) + "}, {" + joined(plan.ratio->now, plan) + "}}"
                                       : std::string("{false, {}, {}, {}}"));
     return with_weights(render("cpp/tables.hpp.mustache", d), plan);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "generator/kernel.hpp"
+#include "generator/moment_rounding.hpp"
 #include "generator/window_polynomial.hpp"
 
 namespace algest::generator {
@@ -20,6 +21,8 @@ int degree_of(const plan::Plan& plan) {
 plan::Accumulators accumulators(const model::Model& model, const plan::Plan& plan) {
     return plan.scalar == plan::Scalar::float32 ? model.estimator.accumulators : plan::Accumulators::float64;
 }
+
+const std::string& wanted(const model::Model& model, const std::string& asked) { return asked.empty() ? model.estimator.engine : asked; }
 
 /// Why moments will not do; empty: they will.
 std::string obstacle(const model::Model& model, const plan::Plan& plan) {
@@ -66,6 +69,7 @@ void set_growing(const kernel::Coefficients& k, plan::Hold hold, int degree, pla
 plan::MomentTable moment_table(const plan::Table& table, const plan::Plan& plan, const plan::Moments& moments, const exact::Rational& step) {
     const kernel::Coefficients k = kernel::coefficients(table.kernel);
     kernel::WindowPolynomial p = kernel::window_polynomial(k, plan.intervals, table.hold, plan.quadrature, step);
+    const exact::Rational gain = rounding_gain(p, plan.intervals, step, plan.scalar, moments.accumulators);
     p.coefficients.resize(static_cast<std::size_t>(moments.degree) + 1, 0);
     plan::MomentTable out;
     for (const exact::Rational& c : p.coefficients) {
@@ -82,14 +86,29 @@ plan::MomentTable moment_table(const plan::Table& table, const plan::Plan& plan,
     if (moments.shortest > 0) set_growing(k, table.hold, moments.degree, out);
     out.oldest = exact::nearest(p.oldest, plan.scalar);
     out.newest = exact::nearest(p.newest, plan.scalar);
+    out.gain = exact::nearest(gain, plan.scalar);
     out.of_one = exact::nearest(kernel::integral(k, plan.intervals, table.hold, plan.quadrature), plan.scalar);
     return out;
 }
 
 }  // namespace
 
+bool engine_serves(const model::Model& model, const std::string& asked, Diagnostics& diagnostics) {
+    const model::Estimator& e = model.estimator;
+    if (e.functional == model::Functional::annihilator) return true;
+    if (wanted(model, asked) == "moments") {
+        diagnostics.error(model.path, e.engine_at, "engine moments is for the windows of the annihilator: other functionals have no polynomial kernels on windows", "use engine fir, or leave it out");
+        return false;
+    }
+    if (model.growing) {
+        diagnostics.error(model.path, model.growing_at, "growing windows are for the annihilator", "leave growing out");
+        return false;
+    }
+    return true;
+}
+
 std::optional<plan::Moments> moments(const model::Model& model, const std::string& asked, plan::Plan& plan, Diagnostics& diagnostics) {
-    if ((asked.empty() ? model.estimator.engine : asked) != "moments") {
+    if (wanted(model, asked) != "moments") {
         if (model.growing) diagnostics.error(model.path, model.growing_at, "a growing window needs engine moments", "write engine = \"moments\" under [estimator], or leave growing out");
         return std::nullopt;
     }

@@ -39,6 +39,15 @@ struct EmittedFile {
 /// NAME/NAME.hpp, NAME/NAME_tables.hpp, NAME/NAME.md. Throws std::logic_error if a template asks for a name it is not given.
 std::vector<EmittedFile> emit(const plan::Plan& plan);
 
+/// What `generate` makes of a model file: an estimator's files, or those of a [filter] (NAME/NAME.hpp and NAME/NAME.md).
+struct Generated {
+    std::string name;
+    std::vector<std::string> notes;   ///< what was chosen for the user, in words
+    std::vector<EmittedFile> files;
+};
+/// Empty when `diagnostics` says why not, as plan_from_model.
+std::optional<Generated> generate(const std::string& path, const PlanOptions& options, Diagnostics& diagnostics);
+
 /// Unified diff of two texts, under the two names; `patch` applies it. Empty: no difference.
 std::string unified_diff(const std::string& before_name, const std::string& before, const std::string& after_name, const std::string& after);
 

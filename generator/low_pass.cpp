@@ -19,18 +19,22 @@ Matrix product(const Matrix& a, const Matrix& b) {
     return out;
 }
 
-/// Nearest multiple of 2^-bits: keeps the rationals of a series short.
+/// Binary places that the series keeps: more than the 53 of a double and the 33 that its largest term, 25^25/25!, cancels use up
+/// together, twice over, so that the one rounding to a scalar is the only one that shows.
+constexpr int places = 200;
+
+/// Nearest multiple of 2^-places: keeps the rationals of a series short.
 Rational shortened(const Rational& x) {
-    const Rational scale = exact::power(Rational(2), 200);
+    const Rational scale = exact::power(Rational(2), places);
     return Rational(cln::round1(x * scale)) / scale;
 }
 
-/// exp of a matrix of norm at most 25: its Taylor series, where the terms have become smaller than 2^-190.
+/// exp of a matrix of norm at most 25: its Taylor series, up to terms as small as what its roundings add up to.
 Matrix exponential(const Matrix& m) {
     Matrix out;
     Matrix term;
     for (std::size_t i = 0; i < 4; ++i) for (std::size_t j = 0; j < 4; ++j) out[i][j] = term[i][j] = i == j ? 1 : 0;
-    const Rational small = exact::power(Rational(2), -190);
+    const Rational small = exact::power(Rational(2), 10 - places);
     for (int k = 1;; ++k) {
         term = product(term, m);
         bool vanished = true;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "generator/constrained_lumping.hpp"
 #include "generator/ginac_exact.hpp"
 #include "generator/identifiability.hpp"
+#include "generator/polynomial_span.hpp"
 
 namespace algest::lumping {
 
@@ -16,47 +18,6 @@ using equation::OperatorForm;
 using equation::Term;
 using exact::Rational;
 using GiNaC::ex;
-
-/// A growing set of linearly independent polynomials, each remembered as a combination of given generators.
-class Span {
-public:
-    /// Coefficients over the generators, and what is left.
-    struct Reduced {
-        Polynomial rest;
-        std::vector<Rational> over;
-    };
-
-    Reduced reduce(Polynomial p) const {
-        Reduced out{{}, std::vector<Rational>(generators_, 0)};
-        for (const Row& row : rows_) {
-            const auto found = p.find(row.reduced.begin()->first);
-            if (found == p.end()) continue;
-            const Rational factor = found->second / row.reduced.begin()->second;
-            p = sum(p, scaled(row.reduced, -factor));
-            for (std::size_t g = 0; g < row.over.size(); ++g) out.over[g] = out.over[g] + factor * row.over[g];
-        }
-        out.rest = std::move(p);
-        return out;
-    }
-
-    /// Adds the rest of a reduction as a new generator, which is rest / scale.
-    void add(const Reduced& reduced, const Rational& scale) {
-        std::vector<Rational> over(generators_ + 1, 0);
-        over[generators_] = scale;
-        rows_.push_back({reduced.rest, over});
-        ++generators_;
-    }
-
-    std::size_t generators() const { return generators_; }
-
-private:
-    struct Row {
-        Polynomial reduced;
-        std::vector<Rational> over;
-    };
-    std::vector<Row> rows_;
-    std::size_t generators_ = 0;
-};
 
 class Lumper {
 public:
@@ -291,7 +252,7 @@ private:
         diagnostics_.error(model_.path, equation.at,
                            "equation '" + equation.name + "' is linear only in " + std::to_string(quotient.unknowns.size()) + " products (" + seen(quotient) + ") of its " +
                                std::to_string(c.parameters.size()) + " parameters, because of the term " + term,
-                           "declare a parameter of that term under [constants], or name the product as a parameter of its own");
+                           "use solve = \"elimination\", declare a parameter of that term under [constants], or name the product as a parameter of its own");
         return false;
     }
 
@@ -483,6 +444,7 @@ private:
 }  // namespace
 
 std::optional<Lumping> lump(const model::Model& model, const std::vector<OperatorForm>& forms, Diagnostics& diagnostics) {
+    if (model.estimator.solve == model::Solver::elimination) return lump_constrained(model, forms, diagnostics);
     return Lumper(model, forms, diagnostics).run();
 }
 

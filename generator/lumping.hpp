@@ -36,12 +36,13 @@ struct Lumping {
     std::vector<Unknown> unknowns;
     std::vector<LumpedEquation> equations;            ///< as the model's
     std::vector<std::optional<Quotient>> inverse;     ///< of the model's parameters, in the unknowns
+    std::optional<plan::Elimination> elimination = {};   ///< instead: the inverse of parameters that it gives is themselves
 };
 
 /// Chooses per group of equations that share parameters: as written where that needs fewer unknowns than after division by the
 /// leading coefficient, divided otherwise (000 divides). Complains where no data tell parameters apart (not identifiable), also
 /// because an equation without parameters ties signals together; where more unknowns than parameters remain or the map has no
-/// rational inverse (bad input).
+/// rational inverse (bad input). With solve = "elimination" as constrained_lumping.hpp says.
 std::optional<Lumping> lump(const model::Model& model, const std::vector<equation::OperatorForm>& forms, Diagnostics& diagnostics);
 
 }  // namespace algest::lumping

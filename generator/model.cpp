@@ -35,17 +35,17 @@ void read_head(const toml::table& root, Reading& reading) {
 void read_sections(const toml::table& root, Reading& reading) {
     TomlAccess& file = reading.file;
     file.known_keys(root, {"format", "name", "summary", "source", "sampling", "signals", "constants", "parameters", "transfer",
-                           "equation", "estimator", "feedback", "discrete"});
+                           "equation", "estimator", "feedback", "discrete", "filter"});
     read_head(root, reading);
     read_sampling(root, reading);
     read_signals(root, reading);
     read_constants(root, reading);
     read_parameters(root, reading);
     read_estimator(root, reading);
-    if (const toml::node* discrete = root.get("discrete")) {
-        file.error(*discrete, "[discrete] is not supported by this version", "use functional = \"annihilator\"");
-    }
-    read_equations(root, reading);
+    read_formulas(root, reading);
+    read_discrete(root, reading);
+    read_filter(root, reading);
+    if (!reading.model.filter) read_equations(root, reading);
     read_feedback(root, reading);
     if (!root.contains("signals")) file.error(Position{1, 1}, "no [signals]", "declare what is measured: y = { unit = \"rad\" }");
 }

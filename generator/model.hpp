@@ -28,6 +28,10 @@ struct Signal {
     std::optional<Rational> min;
     std::optional<Rational> max;
     bool scored = true;
+    std::string formula_text;         ///< of a signal that is computed from measured ones; empty: it is measured
+    formula::Formula formula;
+    std::optional<Rational> steady;   ///< largest spread of its means over the quarters of a steady block, in the unit
+    int lag = 0;                      ///< periods by which its sensor is late; estimators let the other signals wait
 };
 
 struct Constant {
@@ -79,6 +83,12 @@ struct Feedback {
 enum class Functional { annihilator, discrete, derivative, average };
 enum class Solver { square, robust, least_squares, elimination };
 
+/// The name of something that another section declares.
+struct Mention {
+    std::string name;
+    Position at;
+};
+
 struct Estimator {
     bool given = false;
     Position at;
@@ -93,10 +103,45 @@ struct Estimator {
     bool whiten = false;
     std::optional<Rational> omega_n;        ///< rad/s, of the ratio filter; empty: there is none
     Rational zeta = Rational(707) / 1000;   ///< as in 000
+    std::vector<Mention> stages;            ///< elimination: equations in the order in which they are solved; empty: all at once
+    Mention stretches;                      ///< average: the signal that numbers the stretches to be averaged; no name: steady ones are looked for
     std::string engine = "fir";
+    Position engine_at;                     ///< of the section where no engine is given
     plan::Accumulators accumulators = plan::Accumulators::twofold;   ///< of single-precision moments
     plan::Quadrature quadrature = plan::Quadrature::exact;
+
+    /// True: rows are integrals or means over [sampling] window. False: an equation has one row an instant.
+    bool has_window() const { return functional != Functional::derivative; }
 };
+
+/// [filter]: no estimator, a block that filters signals on their own.
+struct Filter {
+    Position at;
+    std::vector<int> signals;   ///< indices, in the order of the file
+};
+
+/// [discrete]: a transfer function in z or q, identified from samples (004).
+struct Discrete {
+    Position at;
+    plan::Domain domain = plan::Domain::q;
+    std::string output;
+    std::string input;
+    int n = 1;
+    int m = 0;                        ///< of the numerator in z, with the preset zeros
+    int numerator = 0;                ///< unknowns of the numerator, less one
+    int derivatives = 2;
+    int skip = 0;                     ///< levels that are left out
+    int extra = 0;                    ///< rows beyond the unknowns
+    Rational gamma = 1;
+    std::vector<Rational> filter_numerator;     ///< of the rows, in z^-1; empty: they are not filtered
+    std::vector<Rational> filter_denominator;
+
+    int unknowns() const { return n + numerator + 1; }
+    int highest_level() const { return n + numerator + skip + extra; }
+};
+
+/// a0 .. a(n-1), b0 .. of z; A1 .. An, B0 .. of q.
+std::vector<std::string> unknown_names(const Discrete& discrete);
 
 struct Model {
     std::string path;
@@ -119,6 +164,8 @@ struct Model {
     std::vector<Equation> equations;  ///< a [transfer] is written out as one
     std::vector<Feedback> feedback;
     Estimator estimator;
+    std::optional<Discrete> discrete;
+    std::optional<Filter> filter;     ///< then there are no equations and nothing to estimate
 
     const Signal* signal(const std::string& name) const;
     const Constant* constant(const std::string& name) const;
@@ -136,6 +183,9 @@ constexpr int largest_kappa = 8;
 constexpr int largest_row = 40;
 constexpr int most_intervals = 1000000;
 constexpr int largest_decimation = 10000;
+constexpr int largest_skip = 40;      ///< levels of sums, each a degree more
+constexpr int most_extra_rows = 100;
+constexpr int largest_lag = 1000;
 
 /// Reads the file. Every complaint goes to `diagnostics`; nullopt if one of them is an error.
 /// With strict, a missing unit is an error instead of a warning.

@@ -143,6 +143,9 @@ void read_estimation(const toml::table& t, Equation& e, Reading& reading) {
     e.rows = read_rows(t, file);
     e.scale = file.positive(t, "scale");
     read_perturbation(t, e, reading);
+    if (reading.model.estimator.has_window()) return;
+    if (e.kappa > 0) file.error(*t.get("kappa"), "kappa is for annihilators, and this functional has none", "write the perturbation as a parameter of its own");
+    if (e.rows.count.value_or(1) > 1 || e.rows.list.size() > 1) file.error(*t.get("rows"), "an equation has one row an instant with this functional", "leave rows out");
 }
 
 void read_equation(const toml::table& t, Reading& reading) {
@@ -172,6 +175,40 @@ void read_equation(const toml::table& t, Reading& reading) {
     if (!left || !right) return;
     check_dimension(model, e, file.diagnostics());
     model.equations.push_back(std::move(e));
+}
+
+/// True if every name in it is a measured signal or a constant. Complains about the first that is not, and about der().
+bool of_measured_signals(const Formula& f, const std::vector<Position>& places, Reading& reading) {
+    const auto refuse = [&](const std::string& what, const std::string& right) {
+        reading.file.error(place_of(f->start, places), what, right);
+        return false;
+    };
+    if (f->kind == formula::Kind::call && f->name == "der") return refuse("der() in a computed signal", "differentiate the computed signal in the equation: der(NAME)");
+    if (f->kind == formula::Kind::call && f->name == "delay") return refuse("delay() in a computed signal", "feed the delayed samples as a signal of their own");
+    if (f->kind == formula::Kind::name) {
+        const Signal* signal = reading.model.signal(f->name);
+        if (reading.model.parameter(f->name) != nullptr) return refuse("a parameter in a computed signal", "write the product in the equation");
+        if (signal != nullptr && !signal->formula_text.empty()) return refuse(quoted(f->name) + " is computed too", "write out its formula");
+    }
+    return std::all_of(f->arguments.begin(), f->arguments.end(), [&](const Formula& a) { return of_measured_signals(a, places, reading); });
+}
+
+void read_formula(Signal& signal, const toml::table& t, Reading& reading) {
+    TomlAccess& file = reading.file;
+    const toml::node& node = *t.get("formula");
+    const std::vector<Position> places = file.places(node, signal.formula_text.size());
+    for (const char* key : {"noise", "resolution", "column", "initial", "hold", "min", "max"}) {
+        if (t.contains(key)) file.error(*t.get(key), std::string(key) + " beside formula", "say it of the signals that the formula is made of");
+    }
+    const auto formula = formula::parse(signal.formula_text, complaint_at(places, file));
+    if (!formula || !sound(*formula, places, reading) || !of_measured_signals(*formula, places, reading)) return;
+    signal.formula = *formula;
+    Equation definition;   // signal = formula, for its dimension
+    definition.file = file.path();
+    definition.places = places;
+    definition.sides.left = std::make_shared<const formula::Node>(formula::Node{formula::Kind::name, 0, 0, 0, signal.name, {}});
+    definition.sides.right = *formula;
+    check_dimension(reading.model, definition, file.diagnostics());
 }
 
 void read_law(const toml::table& t, Reading& reading) {
@@ -280,6 +317,14 @@ void read_transfer(const toml::table& t, Reading& reading) {
 
 }  // namespace
 
+void read_formulas(const toml::table& root, Reading& reading) {
+    for (Signal& signal : reading.model.signals) {
+        const toml::table* t = root.get("signals")->as_table()->get(signal.name)->as_table();
+        if (t->contains("formula") && signal.formula_text.empty()) reading.file.error(*t->get("formula"), "an empty formula", "leave it out where the signal is measured");
+        if (!signal.formula_text.empty()) read_formula(signal, *t, reading);
+    }
+}
+
 void read_equations(const toml::table& root, Reading& reading) {
     TomlAccess& file = reading.file;
     const toml::node* equations = root.get("equation");
@@ -288,7 +333,7 @@ void read_equations(const toml::table& root, Reading& reading) {
     } else if (root.contains("transfer")) {
         if (const toml::table* t = file.subtable(root, "transfer")) read_transfer(*t, reading);
     } else if (equations == nullptr || (equations->is_array() && equations->as_array()->empty())) {
-        file.error(Position{1, 1}, "no equation", "add [transfer] or [[equation]]");
+        if (!root.contains("discrete")) file.error(Position{1, 1}, "no equation", "add [transfer] or [[equation]]");
     } else {
         file.each_table(root, "equation", [&](const toml::table& table) { read_equation(table, reading); });
     }

@@ -39,8 +39,10 @@ void check_noise(const toml::table& t, Reading& reading) {
     }
     const auto asked = [&](const char* key, bool by) {
         if (!by) return;
-        if (e.solve == Solver::least_squares) {
-            reading.file.error(*t.get(key), std::string(key) + " is not to be had with least_squares, which keeps no window of what it absorbed", "use square or robust, or leave it out");
+        if (e.solve == Solver::least_squares || e.solve == Solver::elimination) {
+            reading.file.error(*t.get(key), std::string(key) + " is not to be had with " + (e.solve == Solver::elimination ? "elimination" : "least_squares") + ", which keeps no window of what it absorbed", "use square or robust, or leave it out");
+        } else if (e.solve == Solver::robust && !e.has_window()) {
+            reading.file.error(*t.get(key), std::string(key) + " is not to be had with robust rows of single instants", "use solve = \"square\", or leave it out");
         } else if (!noisy) {
             reading.file.error(*t.get(key), std::string(key) + " needs the noise of the sensors", "declare noise = ... for the measured signals, in their unit");
         }
@@ -53,14 +55,16 @@ void check_noise(const toml::table& t, Reading& reading) {
     }
 }
 
-/// Complains about what a model may say and this version cannot do.
-void check_support(const toml::table& t, Reading& reading) {
-    const Estimator& e = reading.model.estimator;
-    if (e.functional != Functional::annihilator) {
-        reading.file.error(*t.get("functional"), "this functional is not supported by this version", "use functional = \"annihilator\"");
-    }
-    if (e.solve == Solver::elimination) {
-        reading.file.error(*t.get("solve"), "elimination is not supported by this version", "use square, robust or least_squares");
+/// Complains about what belongs to windows, where rows hold at single instants.
+void check_instants(const toml::table& t, Reading& reading) {
+    const Model& model = reading.model;
+    if (model.estimator.has_window()) return;
+    const auto refuse = [&](Position at, const std::string& what) { reading.file.error(at, what + ", and this functional has rows of single instants", "leave it out"); };
+    if (model.window) refuse(model.window_at, "a window is for integrals");
+    if (model.decimate > 1) refuse(model.sampling_at, "decimate is for windows");
+    for (const char* key : {"form", "quadrature", "engine"}) if (t.contains(key)) refuse(position(*t.get(key)), std::string(key) + " is for windows");
+    if (model.estimator.solve == Solver::robust && !model.estimator.solve_window) {
+        reading.file.error(*t.get("solve"), "robust without solve_window", "add solve_window = 0.2, in seconds: how long S(t) sums");
     }
 }
 
@@ -78,6 +82,35 @@ void read_ratio_filter(const toml::table& t, Reading& reading) {
     }
     if (e.solve != Solver::robust) {
         file.error(*t.get("ratio_filter"), "a ratio filter needs solve = \"robust\": only the determinant of S(t) keeps its sign", "use solve = \"robust\", or leave the filter out");
+    }
+}
+
+void read_stages(const toml::table& t, Reading& reading) {
+    Estimator& e = reading.model.estimator;
+    if (t.contains("stages")) {
+        for (PlacedText& name : reading.file.strings(t, "stages", "[\"power\", \"voltage\"]")) e.stages.push_back({std::move(name.text), name.at});
+        if (e.solve != Solver::elimination) reading.file.error(*t.get("stages"), "stages is for solve = \"elimination\"", "use solve = \"elimination\", or leave it out");
+    }
+    if (const auto name = reading.file.string(t, "stretches")) {
+        e.stretches = {*name, position(*t.get("stretches"))};
+        if (e.functional != Functional::average) reading.file.error(*t.get("stretches"), "stretches is for functional = \"average\"", "use functional = \"average\", or leave it out");
+    }
+}
+
+/// Averages are rows of their own: what shapes windows, and what needs many of them, does not fit.
+void check_average(const toml::table& t, Reading& reading) {
+    const Model& model = reading.model;
+    const Estimator& e = model.estimator;
+    if (e.solve != Solver::least_squares && e.solve != Solver::elimination) {
+        reading.file.error(t.contains("solve") ? position(*t.get("solve")) : position(t), "averages are pooled over operating points", "use solve = \"least_squares\" or \"elimination\"");
+    }
+    if (model.decimate > 1) reading.file.error(model.sampling_at, "decimate beside functional = \"average\", which averages already", "leave it out");
+    if (model.period && model.window && *model.window / *model.period < 4) {
+        reading.file.error(model.window_at, "a steady state is told by the four quarters of the window, which has fewer samples", "choose a window of at least four periods");
+    }
+    const bool told = std::any_of(model.signals.begin(), model.signals.end(), [](const Signal& s) { return s.steady.has_value(); });
+    if (!told && e.stretches.name.empty()) {
+        reading.file.error(*t.get("functional"), "nothing says when the machine is steady", "give a signal steady = ..., the drift within a window that still is, in its unit; or name a signal that numbers the stretches: stretches = \"NAME\"");
     }
 }
 
@@ -122,7 +155,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
     file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "accumulators", "quadrature", "forgetting", "condition_limit", "deviation_limit", "uncertainty", "whiten",
-                          "ratio_filter"});
+                          "ratio_filter", "stages", "stretches"});
     Estimator& e = reading.model.estimator;
     e.given = true;
     e.at = position(*t);
@@ -133,6 +166,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
                         {{"square", Solver::square}, {"robust", Solver::robust}, {"least_squares", Solver::least_squares},
                          {"elimination", Solver::elimination}}, e.solve);
     file.choose<std::string>(*t, "engine", {{"fir", "fir"}, {"moments", "moments"}}, e.engine);
+    e.engine_at = t->contains("engine") ? position(*t->get("engine")) : e.at;
     file.choose<plan::Accumulators>(*t, "accumulators", {{"float", plan::Accumulators::twofold}, {"double", plan::Accumulators::float64}}, e.accumulators);
     file.choose<plan::Quadrature>(*t, "quadrature",
                                   {{"exact", plan::Quadrature::exact}, {"trapezoid", plan::Quadrature::trapezoid},
@@ -149,7 +183,9 @@ void read_estimator(const toml::table& root, Reading& reading) {
         if (*f > 1) file.error(*t->get("forgetting"), "'forgetting' is above 1", "1 keeps every row, 0.999 forgets slowly");
         else e.forgetting = *f;
     }
-    check_support(*t, reading);
+    read_stages(*t, reading);
+    if (e.functional == Functional::average) check_average(*t, reading);
+    check_instants(*t, reading);
     check_times(*t, reading);
 }
 

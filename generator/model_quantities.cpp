@@ -60,7 +60,7 @@ void read_signal(const std::string& name, Position at, const toml::node& node, R
     const toml::table* t = entry(name, node, reading);
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"unit", "hold", "noise", "resolution", "column", "initial", "scored", "min", "max"});
+    file.known_keys(*t, {"unit", "hold", "noise", "resolution", "column", "initial", "scored", "min", "max", "formula", "steady", "lag"});
     const bool named = take_name(name, at, reading);
     Signal s;
     s.name = name;
@@ -74,6 +74,9 @@ void read_signal(const std::string& name, Position at, const toml::node& node, R
     s.min = file.number(*t, "min");
     s.max = file.number(*t, "max");
     s.scored = file.boolean(*t, "scored").value_or(true);
+    s.formula_text = file.string(*t, "formula").value_or("");
+    s.steady = file.positive(*t, "steady");
+    s.lag = file.whole(*t, "lag", 0, largest_lag).value_or(0);
     check_limits(*t, s.min, s.max, reading);
     if (named) reading.model.signals.push_back(s);
 }

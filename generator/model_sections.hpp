@@ -26,7 +26,15 @@ void read_parameters(const toml::table& root, Reading& reading);
 void read_sampling(const toml::table& root, Reading& reading);
 void read_estimator(const toml::table& root, Reading& reading);
 
-// model_equations.cpp: [[equation]] or [transfer], and [[feedback]]; after the quantities that they name.
+// model_discrete.cpp: [discrete]; after the estimator and the quantities.
+void read_discrete(const toml::table& root, Reading& reading);
+
+// model_filter.cpp: [filter], in place of equations; after the signals and [sampling].
+void read_filter(const toml::table& root, Reading& reading);
+
+// model_equations.cpp: computed signals, [[equation]] or [transfer], and [[feedback]]; after the quantities that they name.
+/// formula = "..." of computed signals.
+void read_formulas(const toml::table& root, Reading& reading);
 void read_equations(const toml::table& root, Reading& reading);
 void read_feedback(const toml::table& root, Reading& reading);
 

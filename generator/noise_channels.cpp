@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/parabola.hpp"
+
 namespace algest::generator {
 
 namespace {
@@ -37,6 +39,18 @@ bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Di
     return true;
 }
 
+/// What a reading makes of an impulse, sample by sample from the impulse on.
+std::vector<Rational> response_of(const Reading& reading, const model::Model& model) {
+    if (reading.op == plan::Op::derivative) {
+        std::vector<Rational> out = parabola::impulse_response(parabola::Output::slope, parabola::memory);
+        for (Rational& h : out) h = h / *model.period;
+        return out;
+    }
+    std::vector<Rational> out(static_cast<std::size_t>(reading.ago / model.decimate), 0);
+    out.push_back(1);
+    return out;
+}
+
 }  // namespace
 
 NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<plan::PastInput>& past,
@@ -49,21 +63,27 @@ NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& 
         if (input < 0 || !sigma || cln::zerop(*sigma)) continue;
         // A mean over N samples has a deviation of sigma/sqrt(N), the halves of its ends aside.
         const Rational size = model.decimate == 1 ? *sigma : *sigma * *exact::function_value("sqrt", Rational(1) / model.decimate);
-        std::vector<Reading> readings = {{plan::Op::input, input, 0}, {plan::Op::previous, input, 1}};
+        std::vector<Reading> readings = {{plan::Op::input, input, 0}, {plan::Op::previous, input, 1}, {plan::Op::derivative, input, 0}};
         for (std::size_t k = 0; k < past.size(); ++k) if (past[k].input == input) readings.push_back({plan::Op::input, inputs + static_cast<int>(k), past[k].samples});
         for (std::size_t w = 0; w < window_operations.size(); ++w) {
-            if (tape.partial(window_operations[w], plan::Op::derivative, input) >= 0) return {{}, {}, model.signals[s].name};
+            if (model.decimate > 1 && tape.partial(window_operations[w], plan::Op::derivative, input) >= 0) return {{}, {}, model.signals[s].name};
             for (const Reading& reading : readings) {
                 const int partial = tape.partial(window_operations[w], reading.op, reading.input);
                 if (partial < 0) continue;
                 const auto constant = tape.constant_value(partial);
-                plan::NoiseChannel channel{input, static_cast<int>(w), -1, reading.ago / model.decimate, exact::nearest(constant ? *constant * size : size, scalar)};
+                plan::NoiseChannel channel{input, static_cast<int>(w), -1, 0, 0.0};
                 if (!constant) {
                     const auto known = std::find_if(out.partials.begin(), out.partials.end(), [&](const NoiseChannels::Partial& p) { return p.operation == partial; });
                     channel.partial = static_cast<int>(known - out.partials.begin());
                     if (known == out.partials.end()) out.partials.push_back({partial, static_cast<int>(w), input});
                 }
-                out.channels.push_back(channel);
+                const std::vector<Rational> response = response_of(reading, model);
+                for (std::size_t lag = 0; lag < response.size(); ++lag) {
+                    if (cln::zerop(response[lag])) continue;
+                    channel.lag = static_cast<int>(lag);
+                    channel.factor = exact::nearest((constant ? *constant * size : size) * response[lag], scalar);
+                    out.channels.push_back(channel);
+                }
             }
         }
     }
@@ -73,7 +93,7 @@ NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& 
 bool noise_suffices(const model::Model& model, const std::string& through_a_filter, plan::Plan& plan, Diagnostics& diagnostics) {
     const model::Estimator& e = model.estimator;
     if (!through_a_filter.empty()) {
-        const std::string what = "the noise of '" + through_a_filter + "' goes through the parabola filter into a window: its uncertainty is not known";
+        const std::string what = "the noise of '" + through_a_filter + "' goes through the parabola filter into means: its uncertainty is not known";
         if (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit) {
             diagnostics.error(model.path, e.at, what, "leave out uncertainty, whiten and deviation_limit, or the noise of that signal");
             return false;

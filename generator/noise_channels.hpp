@@ -8,7 +8,7 @@
 
 namespace algest::generator {
 
-/// A channel per noisy input and window signal that it enters: the partial derivative is in the factor where it is constant, else a ring of its
+/// A channel per noisy input, window signal that it enters and sample of delay (24 of them by the parabola filter): the partial derivative is in the factor where it is constant, else a ring of its
 /// own beside the windows.
 struct NoiseChannels {
     struct Partial {
@@ -18,7 +18,7 @@ struct NoiseChannels {
     };
     std::vector<plan::NoiseChannel> channels;   ///< sorted by input
     std::vector<Partial> partials;
-    std::string through_a_filter;               ///< a noisy signal whose derivative by the parabola filter a window holds: then no channels; else empty
+    std::string through_a_filter;               ///< a noisy signal whose derivative by the parabola filter decimated windows hold: then no channels; else empty
 };
 
 /// input_of_signal: by the model's signals, -1: no input; inputs stand in the order of the signals, `past` behind them. window_operations: of the

@@ -3,27 +3,28 @@
 #include "generator/plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <memory>
 #include <set>
 
-#include "generator/annihilator.hpp"
 #include "generator/delay.hpp"
 #include "generator/dimension.hpp"
+#include "generator/discrete_plan.hpp"
+#include "generator/elimination_data.hpp"
 #include "generator/engine.hpp"
 #include "generator/generate.hpp"
 #include "generator/initial_value.hpp"
-#include "generator/kernel.hpp"
 #include "generator/low_pass.hpp"
 #include "generator/lumping.hpp"
 #include "generator/model.hpp"
 #include "generator/names.hpp"
 #include "generator/noise_channels.hpp"
-#include "generator/perturbation.hpp"
+#include "generator/planner.hpp"
 #include "generator/row_choice.hpp"
+#include "generator/row_functional.hpp"
 #include "generator/row_weight.hpp"
+#include "generator/steady_state.hpp"
 #include "generator/tape_builder.hpp"
 
 namespace algest::generator {
@@ -41,23 +42,27 @@ public:
         : model_(model), options_(options), diagnostics_(diagnostics) {}
 
     std::optional<plan::Plan> run() {
-        if (!what_is_missing()) return std::nullopt;
+        if (!what_is_missing() || !engine_serves(model_, options_.engine, diagnostics_)) return std::nullopt;
+        if (model_.discrete) return run_discrete();
         const auto forms = operator_forms(model_, diagnostics_);
         if (!forms) return std::nullopt;
         forms_ = *forms;
         const auto lumping = lumping::lump(model_, forms_, diagnostics_);
         if (!lumping) return std::nullopt;
         lumping_ = *lumping;
+        if (model_.estimator.functional == model::Functional::derivative && !hold_at_instants(model_, lumping_, forms_, diagnostics_)) return std::nullopt;
         const auto rows = choose_rows(model_, lumping_, diagnostics_);
         if (!rows) return std::nullopt;
         rows_ = *rows;
-        const auto weights = row_weights(model_, forms_, lumping_, rows_, diagnostics_);
+        functional_ = row_functional(model_, forms_, options_.scalar);
+        const auto weights = row_weights(model_, forms_, lumping_, rows_, *functional_, diagnostics_);
         if (!weights) return std::nullopt;
 
         head();
+        plan_.functional = functional_->kind();
+        plan_.intervals = functional_->intervals();
         equations();
-        inputs();
-        if (!past_inputs()) return std::nullopt;
+        if (!inputs() || !past_inputs()) return std::nullopt;
         solver();
         tables_and_rows(*weights);
         unknowns_and_parameters();
@@ -72,7 +77,8 @@ public:
         std::vector<OperatorForm> out;
         bool good = true;
         for (const model::Equation& e : model.equations) {
-            const auto form = equation::operator_form(model, e, diagnostics);
+            auto form = equation::operator_form(model, e, diagnostics);
+            if (form && model.estimator.functional == model::Functional::average) form = in_steady_state(model, e, *form, diagnostics);
             good = good && form.has_value();
             if (form) out.push_back(*form);
         }
@@ -80,17 +86,29 @@ public:
     }
 
 private:
+    std::optional<plan::Plan> run_discrete() {
+        head();
+        if (model_.window) plan_.intervals = cln::cl_I_to_int(cln::numerator(*model_.window / *model_.period));
+        solver();
+        plan_discrete(model_, options_, plan_);
+        plan_.kept = kept_samples(plan_.solve, 0, false, false);
+        if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
+        return std::move(plan_);
+    }
+
     bool what_is_missing() {
+        const bool pooled_samples = model_.discrete && model_.estimator.solve == model::Solver::least_squares;
         if (!model_.period) diagnostics_.error(model_.path, model_.sampling_at, "no sampling period", "add [sampling] period = 1e-3, in seconds");
-        if (!model_.window) {
+        if (!model_.window && model_.estimator.has_window() && !pooled_samples) {
             diagnostics_.error(model_.path, model_.sampling_at, "no window: an estimator needs one",
                                "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
         }
-        if (model_.parameters.empty()) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
+        if (model_.parameters.empty() && !model_.discrete) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
         return !diagnostics_.has_errors();
     }
 
-    Rational intervals() const { return *model_.window / model_.window_period(); }
+    bool averages() const { return model_.estimator.functional == model::Functional::average; }
+
 
     void head() {
         plan_.name = model_.name;
@@ -101,7 +119,6 @@ private:
         plan_.period_text = exact::text(*model_.period);
         plan_.period = exact::nearest(*model_.period, plan::Scalar::float64);
         plan_.rate = exact::nearest(1 / *model_.period, options_.scalar);
-        plan_.intervals = cln::cl_I_to_int(cln::numerator(intervals()));
         plan_.decimate = model_.decimate;
         plan_.quadrature = model_.estimator.quadrature;
         if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\"");
@@ -139,42 +156,62 @@ private:
                 out.operators.push_back({text(coefficient, names), signal_text(e, product), forms_[e].order(product)});
             }
             out.form = model_.estimator.form;
-            for (const ChosenRow& row : rows_) {
-                if (row.equation != static_cast<int>(e) || (out.form == 1 && !out.annihilated.empty())) continue;
-                out.annihilated.push_back({out.form == 1 ? 0 : row.p, {}});
-                for (int i = 0; i <= out.n; ++i) {
-                    std::vector<plan::LeibnizTerm> terms;
-                    for (const auto& t : annihilator::leibniz_expansion(i, orders(e), row.p)) terms.push_back({exact::text(t.coefficient), t.power, t.derivative});
-                    out.annihilated.back().leibniz.push_back(terms);
-                }
-            }
+            out.annihilated = functional_->annihilated(e, rows_);
             plan_.equations.push_back(out);
         }
     }
 
-    /// A product as a signal: a lone derivative is its signal.
+    /// A product as a signal; the signal under a lone derivative.
     std::string signal_text(std::size_t e, const equation::Product& product) const {
         const OperatorForm& form = forms_[e];
         if (form.order(product) > 0) return model_.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(product[0].atom)].signal)].name;
         return form.text(product);
     }
 
-    void inputs() {
+    /// The quantities of operating points, computed from the inputs.
+    bool quantities(const std::set<int>& used) {
+        auto steady = steady_signals(model_, used, diagnostics_);
+        if (!steady) return false;
+        feed(steady->inputs, {});
+        TapeBuilder tape(model_, plan_.scalar, {input_of_signal_});
+        for (const plan::Averaged& a : steady->state.averaged) tape.result(tape.signal(model_.signal_index(a.name)));
+        steady->state.quantities = tape.finish();
+        if (steady->state.stretches >= 0) steady->state.stretches = input_of_signal_[static_cast<std::size_t>(steady->state.stretches)];
+        plan_.steady = steady->state;
+        input_of_signal_ = steady->index;
+        return true;
+    }
+
+    bool inputs() {
         std::set<int> used;
         std::set<int> differentiated;
         for (std::size_t e = 0; e < forms_.size(); ++e) {
             if (!lumping_.equations[e].used) continue;
             for (const lumping::LumpedTerm& term : lumping_.equations[e].terms) {
                 const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term.term)].product;
-                const bool lone = forms_[e].order(product) > 0;
+                const bool by_weights = functional_->order(forms_[e], product) > 0;
                 for (const equation::Factor& factor : product) {
                     const equation::Atom& atom = forms_[e].atoms[static_cast<std::size_t>(factor.atom)];
                     used.insert(atom.arguments.begin(), atom.arguments.end());
-                    if (!lone && atom.kind == equation::Atom::Kind::derivative) differentiated.insert(atom.signal);
+                    if (!by_weights && atom.kind == equation::Atom::Kind::derivative) differentiated.insert(atom.signal);
                     if (atom.differentiates) collect_differentiated(atom.formula, differentiated);
                 }
             }
         }
+        for (const int s : differentiated) {
+            const model::Signal& signal = model_.signals[static_cast<std::size_t>(s)];
+            if (!signal.formula) continue;
+            diagnostics_.error(model_.path, signal.at, "the parabola filter runs on measured signals, and the derivative of '" + signal.name + "' stands inside a nonlinearity",
+                               "measure '" + signal.name + "', or write its derivative by those of measured signals");
+            return false;
+        }
+        if (averages()) return quantities(used);
+        feed(measured(model_, used), differentiated);
+        return true;
+    }
+
+    /// Makes inputs of these signals.
+    void feed(const std::set<int>& used, const std::set<int>& differentiated) {
         input_of_signal_.assign(model_.signals.size(), -1);
         const double infinity = std::numeric_limits<double>::infinity();
         for (const int s : used) {
@@ -184,6 +221,9 @@ private:
                                     signal.min ? exact::nearest(*signal.min, plan_.scalar) : -infinity,
                                     signal.max ? exact::nearest(*signal.max, plan_.scalar) : infinity, differentiated.count(s) > 0});
         }
+        int latest = 0;
+        for (const int s : used) latest = std::max(latest, model_.signals[static_cast<std::size_t>(s)].lag);
+        for (const int s : used) plan_.inputs[static_cast<std::size_t>(input_of_signal_[static_cast<std::size_t>(s)])].wait = latest - model_.signals[static_cast<std::size_t>(s)].lag;
     }
 
     void collect_differentiated(const formula::Formula& f, std::set<int>& out) const {
@@ -202,6 +242,10 @@ private:
                 }
             }
             for (const model::Delay& d : delays) {
+                if (model_.signals[static_cast<std::size_t>(d.signal)].formula) {
+                    diagnostics_.error(model_.path, model_.equations[e].place(d.call->start), "a computed signal is delayed", "write the formula with delayed signals in the equation");
+                    return false;
+                }
                 const Rational samples = *d.by / *model_.period;
                 if (samples > longest_delay) {
                     diagnostics_.error(model_.path, model_.equations[e].place(d.call->start), "a delay of " + exact::decimal(*d.by) + " s is more than " + std::to_string(longest_delay) + " sampling periods",
@@ -233,20 +277,11 @@ private:
         return inputs + static_cast<int>(plan_.past.size()) - 1;
     }
 
-    bool held(std::size_t e, const equation::Product& product) const {
-        bool held = true;
-        for (const equation::Factor& factor : product) {
-            const equation::Atom& atom = forms_[e].atoms[static_cast<std::size_t>(factor.atom)];
-            for (const int s : atom.arguments) held = held && model_.signals[static_cast<std::size_t>(s)].hold == plan::Hold::zoh;
-            held = held && !atom.differentiates && (atom.kind != equation::Atom::Kind::derivative || forms_[e].order(product) > 0);
-        }
-        return held;
-    }
-
     int window_signal(std::size_t e, const equation::Product& product, TapeBuilder& tape) {
-        const bool held_signal = held(e, product);
+        const bool by_weights = functional_->order(forms_[e], product) > 0;   // then the ring holds the signal itself
+        const bool held_signal = functional_->held(model_, forms_[e], product);
         const plan::Hold hold = held_signal && plan_.decimate == 1 ? plan::Hold::zoh : plan::Hold::linear;   // means move straight from one to the next
-        const plan::WindowSignal wanted{signal_text(e, product), hold, held_signal, forms_[e].delayed};
+        const plan::WindowSignal wanted{by_weights ? signal_text(e, product) : forms_[e].text(product), hold, held_signal, forms_[e].delayed};
         for (std::size_t k = 0; k < plan_.window_signals.size(); ++k) {
             const plan::WindowSignal& s = plan_.window_signals[k];
             if (s.text == wanted.text && s.delayed == wanted.delayed) return static_cast<int>(k);
@@ -254,7 +289,7 @@ private:
         plan_.window_signals.push_back(wanted);
         equation::Product undifferentiated = product;
         OperatorForm form = forms_[e];
-        if (form.order(product) > 0) {   // the kernel differentiates: the ring holds the signal itself
+        if (by_weights) {
             equation::Atom& atom = form.atoms[static_cast<std::size_t>(product[0].atom)];
             atom.formula = atom.formula->arguments[0];
         }
@@ -263,45 +298,19 @@ private:
         return static_cast<int>(plan_.window_signals.size()) - 1;
     }
 
-    annihilator::Orders orders(std::size_t e) const { return {forms_[e].n, model_.equations[e].kappa, model_.estimator.form}; }
-
-    /// Which functional of an equation: of row p, or (p = 0) of the coefficient c_i of its perturbation.
-    struct Kind {
-        int p;
-        int perturbation;
-    };
-
-    /// Derived once: every row and term of these orders has it.
-    const kernel::Coefficients& kernel_of(int derivative, Kind kind, annihilator::Orders orders) {
-        const auto [at, fresh] = kernels_.try_emplace({derivative, kind.p, kind.perturbation, orders.n, orders.kappa});
-        if (fresh) {
-            at->second = kind.p > 0 ? annihilator::kernel(derivative, kind.p, orders) : perturbation::kernel(kind.perturbation, derivative, orders.n, orders.kappa);
-        }
-        return at->second;
-    }
-
     int table(std::size_t e, int derivative, Kind kind, plan::Hold hold) {
-        const int n = forms_[e].n;
-        const int kappa = model_.equations[e].kappa;
-        for (std::size_t k = 0; k < plan_.tables.size(); ++k) {
-            const plan::Table& t = plan_.tables[k];
-            if (t.n == n && t.kappa == kappa && t.derivative == derivative && t.p == kind.p && t.perturbation == kind.perturbation && t.hold == hold) return static_cast<int>(k);
-        }
         plan::Table out;
-        out.n = n;
-        out.kappa = kappa;
+        out.name = functional_->table_name(e, derivative, kind, hold);
+        for (std::size_t k = 0; k < plan_.tables.size(); ++k) if (plan_.tables[k].name == out.name) return static_cast<int>(k);
+        out.n = forms_[e].n;
+        out.kappa = model_.equations[e].kappa;
         out.form = model_.estimator.form;
         out.derivative = derivative;
         out.p = kind.p;
         out.perturbation = kind.perturbation;
         out.hold = hold;
-        const std::string rule = hold == plan::Hold::zoh ? "zoh"
-                                 : plan_.quadrature == plan::Quadrature::exact ? "linear"
-                                 : plan_.quadrature == plan::Quadrature::trapezoid ? "trapezoid" : "simpson";
-        out.name = "n" + std::to_string(n) + "_kappa" + std::to_string(kappa) + (kind.p > 0 && out.form == 2 ? "_form2" : "") + (kind.p > 0 ? "_F_" : "_C_") + std::to_string(derivative) + "_" +
-                   std::to_string(kind.p > 0 ? kind.p : kind.perturbation) + "_" + rule;
-        const kernel::Coefficients& k = kernel_of(derivative, kind, orders(e));
-        for (const Rational& c : k) out.kernel.push_back(exact::text(c));
+        for (const Rational& c : functional_->kernel(e, derivative, kind)) out.kernel.push_back(exact::text(c));
+        equation_of_table_.push_back(e);
         plan_.tables.push_back(std::move(out));
         return static_cast<int>(plan_.tables.size()) - 1;
     }
@@ -321,7 +330,7 @@ private:
             if (equation.perturbation.empty() || !lumping_.equations[e].used) continue;
             for (int i = 1; i <= equation.kappa; ++i) {
                 plan::Row row{equation_index_[e], 0, {}};
-                fill(row, e, {0, i}, exact::power(*model_.window, 1 - i), tape);
+                fill(row, e, {0, i}, functional_->time_scale(i - 1), tape);
                 plan_.perturbation.push_back(row);
             }
         }
@@ -342,11 +351,13 @@ private:
 
     /// What reads whole windows, weight by weight.
     void weights_and_noise(TapeBuilder& tape) {
-        if (options_.weights) {
-            for (plan::Table& t : plan_.tables) t.weights = kernel::weights(kernel::coefficients(t.kernel), plan_.intervals, t.hold, plan_.quadrature, plan_.scalar);
+        for (std::size_t k = 0; k < plan_.tables.size(); ++k) {
+            plan::Table& t = plan_.tables[k];
+            if (options_.weights || t.kernel.empty()) t.weights = functional_->weights(equation_of_table_[k], t.derivative, {t.p, t.perturbation}, t.hold);
         }
         const model::Estimator& e = model_.estimator;
-        if (e.solve == model::Solver::least_squares || !e.uncertainty.value_or(true)) return;
+        if (e.solve == model::Solver::least_squares || e.solve == model::Solver::elimination || !e.uncertainty.value_or(true)) return;
+        if (e.solve == model::Solver::robust && !e.has_window()) return;   // S(t) keeps 32 of its instants for uncertainty(), and these share no samples
         noise_ = noise_channels(model_, input_of_signal_, plan_.past, window_operations_, plan_.scalar, tape);
         plan_.noise = noise_.channels;
         for (const NoiseChannels::Partial& p : noise_.partials) {
@@ -357,18 +368,17 @@ private:
 
     plan::RowTerm row_term(std::size_t e, Kind kind, int term, int unknown, const Rational& coefficient, const Rational& weight, TapeBuilder& tape) {
         const equation::Product& product = forms_[e].terms[static_cast<std::size_t>(term)].product;
-        const int derivative = forms_[e].order(product);
-        const kernel::Coefficients& k = kernel_of(derivative, kind, orders(e));
+        const int derivative = functional_->order(forms_[e], product);
         plan::RowTerm out;
         out.lumped = unknown;
         out.derivative = derivative;
         out.coefficient = exact::text(coefficient);
-        for (const Rational& c : k) out.kernel.push_back(exact::text(c * coefficient));
-        Rational factor = coefficient * exact::power(*model_.window, -derivative) * weight;
+        for (const Rational& c : functional_->kernel(e, derivative, kind)) out.kernel.push_back(exact::text(c * coefficient));
+        Rational factor = coefficient * functional_->time_scale(derivative) * weight;
         if (product.empty()) {
             out.signal = -1;
             out.table = -1;
-            factor = factor * kernel::integral(k, plan_.intervals, plan::Hold::linear, plan_.quadrature);
+            factor = factor * functional_->of_one(e, derivative, kind);
         } else {
             out.signal = window_signal(e, product, tape);
             out.table = table(e, derivative, kind, plan_.window_signals[static_cast<std::size_t>(out.signal)].hold);
@@ -389,6 +399,10 @@ private:
         std::vector<int> operations(model_.parameters.size(), -1);
         for (std::size_t k = 0; k < model_.parameters.size(); ++k) {
             const model::Parameter& p = model_.parameters[k];
+            if (lumping_.elimination) {
+                plan_.parameters.push_back({p.name, p.unit, p.name, p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0, false});
+                map.result(map.input(static_cast<int>(k)));
+            }
             if (!lumping_.inverse[k]) continue;
             plan_.parameters.push_back({p.name, p.unit, text(*lumping_.inverse[k], unknowns), p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0, false});
             operations[k] = map.quotient(*lumping_.inverse[k]);
@@ -396,7 +410,8 @@ private:
         }
         perturbations(map, operations);
         plan_.parameter_map = map.finish();
-        if (plan_.uncertain()) derivatives_of_the_map();
+        elimination();
+        if (plan_.uncertain() || plan_.solve == algest::Solve::least_squares) derivatives_of_the_map();
     }
 
     /// The rows were divided by the leading coefficient: what they say of a perturbation is multiplied by it.
@@ -419,6 +434,19 @@ private:
                 plan_.parameters.push_back({name, of_coefficient.known() ? of_coefficient.text() : "", what, 0.0, true});
             }
         }
+    }
+
+    void elimination() {
+        plan_.elimination = lumping_.elimination;
+        if (!plan_.elimination) return;
+        const auto round = [&](auto& terms) {
+            for (auto& term : terms) term.coefficient = exact::nearest(exact::from_text(term.exact), plan_.scalar);
+        };
+        for (plan::EliminationStage& stage : plan_.elimination->stages) {
+            round(stage.alone);
+            round(stage.summands);
+        }
+        if (plan_.scalar == plan::Scalar::float32) plan_.notes.push_back("single precision does not hold the coefficients of a resultant, nor the products of signals of different sizes: use double");
     }
 
     void derivatives_of_the_map() {
@@ -446,10 +474,11 @@ private:
         const model::Estimator& e = model_.estimator;
         plan_.solve = e.solve == model::Solver::robust          ? algest::Solve::robust
                       : e.solve == model::Solver::least_squares ? algest::Solve::least_squares
+                      : e.solve == model::Solver::elimination ? algest::Solve::elimination
                                                                 : algest::Solve::square;
         plan_.solve_instants = 0;
         if (plan_.solve == algest::Solve::robust) {
-            const Rational window = e.solve_window.value_or(*model_.window);
+            const Rational window = e.solve_window ? *e.solve_window : *model_.window;
             if (!e.solve_window) plan_.notes.push_back("no solve_window: S(t) runs over one window");
             plan_.solve_instants = cln::cl_I_to_int(cln::floor1(window / model_.window_period())) + 1;
         }
@@ -477,6 +506,7 @@ private:
     /// Rows of a machine that is excited well have a condition of 10 to 1e4; beyond 1e5 they tell noise and rounding apart no more.
     /// Single precision stops where rounding alone would cost three digits of seven; S(t) squares the condition of its rows.
     double default_condition_limit() const {
+        if (model_.discrete) return plan_.scalar == plan::Scalar::float64 ? 1e14 : 1e9;
         if (plan_.scalar == plan::Scalar::float64) return 1e5;
         return plan_.solve == algest::Solve::robust ? 92.0 : 8.4e3;   // sqrt(1e-3 / epsilon), 1e-3 / epsilon
     }
@@ -489,12 +519,15 @@ private:
             for (const plan::MomentTable& t : plan_.moments->tables) {
                 numbers.insert(numbers.end(), t.coefficients.begin(), t.coefficients.end());
                 numbers.insert(numbers.end(), t.growing.begin(), t.growing.end());
-                numbers.insert(numbers.end(), {t.oldest, t.newest, t.of_one});
+                numbers.insert(numbers.end(), {t.oldest, t.newest, t.of_one, t.gain});
             }
         }
         for (const plan::Row& row : plan_.perturbation) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Row& row : plan_.rows) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Parameter& p : plan_.parameters) numbers.push_back(p.initial);
+        const auto elimination = plan::make_elimination<double>(plan_.elimination);
+        for (const auto* of : {&elimination.sizes, &elimination.coefficient_of, &elimination.terms}) numbers.insert(numbers.end(), of->begin(), of->end());
+        for (const auto& a : elimination.alone) numbers.push_back(a.coefficient);
         for (const plan::Tape* tape : {&plan_.signals, &plan_.parameter_map, &plan_.map_derivatives}) for (const plan::Operation& o : tape->operations) numbers.push_back(o.value);
         const bool tables_fit = std::all_of(plan_.tables.begin(), plan_.tables.end(), [&](const plan::Table& t) { return finite(t.weights); });
         if (tables_fit && finite(numbers)) return true;
@@ -511,7 +544,8 @@ private:
         const std::size_t rings = static_cast<std::size_t>(plan_.rings());
         const std::size_t most = std::max({plan_.tables.size(), rings, plan_.rows.size(), plan_.lumped.size(), plan_.noise.size(), terms});
         const double unknowns = static_cast<double>(plan_.lumped.size());
-        const double scalars = std::max(2.0 * static_cast<double>(rings) * (plan_.samples() + plan_.kept),
+        const double waiting = (plan_.longest_wait() + 1.0) * static_cast<double>(plan_.inputs.size());
+        const double scalars = waiting + std::max(2.0 * static_cast<double>(rings) * (plan_.samples() + plan_.kept),
                                         std::max((plan_.solve_instants + 5.0) * (unknowns + 1) * (unknowns + 2) / 2, static_cast<double>(plan_.tables.size()) * plan_.samples()));
         if (most < 65535 && scalars < 2e8) return true;
         diagnostics_.error(model_.path, model_.sampling_at, "the estimator is too large: " + std::to_string(terms) + " terms, arrays of up to " + std::to_string(static_cast<long>(scalars)) + " numbers",
@@ -527,8 +561,9 @@ private:
     std::vector<ChosenRow> rows_;
     std::vector<int> equation_index_;
     std::vector<int> input_of_signal_;
+    std::vector<std::size_t> equation_of_table_;
+    std::unique_ptr<RowFunctional> functional_;
     std::map<std::pair<std::string, bool>, DelayedInput> delays_;  // by text, and whether the equation is one sample late
-    std::map<std::array<int, 5>, kernel::Coefficients> kernels_;   // by derivative, p, perturbation, n, kappa
     std::vector<int> window_operations_;                           // of the signals' tape, by window signal
     NoiseChannels noise_;
     plan::Plan plan_;
@@ -553,8 +588,8 @@ bool simulation_alone(const model::Model& model, Diagnostics& diagnostics) {
 bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics) {
     const auto model = model::read(path, strict, diagnostics);
     if (!model) return false;
-    if (simulation_alone(*model, diagnostics)) return !diagnostics.failed();
-    if (!model->parameters.empty() && model->window && model->period) {   // an estimator follows, or it is said why not
+    if (model->filter || simulation_alone(*model, diagnostics)) return !diagnostics.failed();
+    if (model->discrete || (!model->parameters.empty() && model->period && (model->window || !model->estimator.has_window()))) {   // an estimator follows, or it is said why not
         PlanOptions options;
         options.weights = false;
         (void)Planner(*model, options, diagnostics).run();
@@ -571,10 +606,8 @@ bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics)
     return !diagnostics.failed();
 }
 
-std::optional<plan::Plan> plan_from_model(const std::string& path, const PlanOptions& options, Diagnostics& diagnostics) {
-    const auto model = model::read(path, false, diagnostics);
-    if (!model) return std::nullopt;
-    auto plan = Planner(*model, options, diagnostics).run();
+std::optional<plan::Plan> plan_of(const model::Model& model, const PlanOptions& options, Diagnostics& diagnostics) {
+    auto plan = Planner(model, options, diagnostics).run();
     return diagnostics.failed() ? std::nullopt : plan;
 }
 

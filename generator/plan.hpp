@@ -14,7 +14,10 @@ namespace algest::plan {
 
 enum class Scalar : std::uint8_t { float64, float32 };
 enum class Hold : std::uint8_t { zoh, linear };
+/// Of [estimator]: what rows are made of.
+enum class Functional : std::uint8_t { annihilator, derivative, average };
 enum class Quadrature : std::uint8_t { exact, trapezoid, simpson };
+enum class Domain : std::uint8_t { z, q };
 
 /// A signal that the user feeds, in the order of the model file.
 struct Input {
@@ -24,6 +27,7 @@ struct Input {
     double min;            ///< samples outside [min, max] are rejected; infinite: no limit
     double max;
     bool differentiated;   ///< a parabola filter runs on it
+    int wait = 0;          ///< samples that it waits for the sensor that is latest
 };
 
 /// An input some samples ago; the signals' tape reads it behind the inputs.
@@ -50,8 +54,9 @@ struct Table {
     int p;
     int perturbation;                  ///< 0, or i: its functional gives the coefficient c_i of the equation's perturbation, and p is 0
     Hold hold;
-    std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0
-    std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty if they were not asked for, or with moments
+    std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0; empty: no polynomial
+    std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty with moments, or if they
+                                       ///< were not asked for and follow from the kernel
 };
 
 /// What windowed moments are summed in: double, or two floats.
@@ -64,6 +69,7 @@ struct MomentTable {
     double oldest;
     double newest;
     double of_one;
+    double gain;
     int degree;
     int derivative;
     std::vector<double> growing;          ///< growing windows (runtime's growing_moments.hpp): power of v after power of v, each by powers of h
@@ -156,6 +162,53 @@ struct RatioFilter {
     std::vector<double> now;
 };
 
+/// A column of the rows that is a number times one parameter or its square, which no other column of its stage has.
+struct EliminationAlone {
+    int parameter;
+    bool squared;
+    std::string exact;         ///< the coefficient as a rational
+    double coefficient;        ///< rounded once to the scalar
+};
+
+/// A summand of a column: a number times powers of the parameters, of the square of one that enters its stage by squares alone.
+struct EliminationSummand {
+    int column;                ///< within the stage
+    std::string exact;
+    double coefficient;
+    std::vector<int> exponents;
+};
+
+/// A term of the resultant: a number times coefficients of the extremum equations (runtime's elimination.hpp says which).
+struct EliminationTerm {
+    double coefficient;
+    std::vector<int> factors;
+};
+
+/// Parameters that are solved for together, by one equation or more.
+struct EliminationStage {
+    std::vector<std::string> equations;
+    int first_column;
+    int columns;
+    std::vector<EliminationAlone> alone;
+    std::vector<EliminationSummand> summands;
+    int x;                     ///< the parameter that the resultant eliminates; -1: none
+    int y;                     ///< the one that it leaves; -1: all stand alone
+    bool x_squared;
+    bool y_squared;
+    int degree_x;              ///< of the columns
+    int degree_y;
+    std::vector<EliminationTerm> resultant;
+    int resultant_degree;      ///< in y
+    int degree_of_first;       ///< of dE/dx in x
+    int degree_of_second;      ///< of dE/dy in x
+};
+
+/// How the columns of the rows hang on fewer parameters, counted in sizes that are powers of two.
+struct Elimination {
+    std::vector<double> sizes;   ///< by parameter
+    std::vector<EliminationStage> stages;
+};
+
 /// A parameter that the user asked for.
 struct Parameter {
     std::string name;
@@ -163,6 +216,47 @@ struct Parameter {
     std::string from;        ///< in the lumped parameters, e.g. "Gamma2/Gamma1"
     double initial;          ///< held until the first ok estimate
     bool perturbation;       ///< no parameter: a coefficient of a perturbation on the window
+};
+
+/// A quantity that is averaged over operating points.
+struct Averaged {
+    std::string name;
+    std::string unit;       ///< empty: not declared
+    double tolerance;       ///< largest spread of its means over the quarters of a steady block; infinite: not asked
+};
+
+/// Rows from means over steady blocks of samples instead of from windows.
+struct SteadyState {
+    int block;                        ///< samples
+    std::vector<Averaged> averaged;   ///< what the signals' tape reads
+    Tape quantities;                  ///< inputs -> averaged quantities
+    int stretches;                    ///< the input that numbers stretches; -1: none
+};
+
+/// Which side of a difference equation a column of the rows comes from, and the samples that it combines: scale * sum taps[s] f(k-n+s).
+struct Combination {
+    std::string name;                  ///< of the unknown; "known" for the known side
+    bool input;                        ///< of the input; else of the output
+    std::string scale;                 ///< exact rational
+    std::vector<std::string> taps;     ///< coprime integers
+};
+
+/// How the rows of a discrete-time estimator were made (004); the unknowns are the denominator's, then the numerator's, lowest first.
+struct Discrete {
+    Domain domain;
+    int n;
+    int m;
+    int numerator;
+    int derivatives;
+    int skip;
+    int extra;
+    std::string gamma;                        ///< exact rational
+    std::string omega0;                       ///< 2/period, exact rational, 1/s
+    bool pooled;                              ///< the equation itself, of every sample since reset (12 to 14); else levels of sums
+    std::vector<std::string> multiplier;      ///< chi(k), lowest power first; empty where pooled
+    std::vector<Combination> combinations;
+    std::vector<std::string> filter_numerator;     ///< of the rows, in z^-1; empty: they are not filtered
+    std::vector<std::string> filter_denominator;
 };
 
 struct Plan {
@@ -174,6 +268,7 @@ struct Plan {
     std::string period_text;   ///< exact rational, s; of the samples that are fed
     double period;             ///< s
     double rate;               ///< 1/period, rounded once to the scalar, 1/s
+    Functional functional = Functional::annihilator;
     int intervals;             ///< M; a window has M + 1 samples
     int decimate = 1;          ///< periods that one sample of a window is the mean over; 1: it is a sample that was fed
     Quadrature quadrature;
@@ -201,6 +296,10 @@ struct Plan {
     double deviation_limit;    ///< 0: not asked
     bool whiten;
     std::optional<RatioFilter> ratio;
+    std::optional<Elimination> elimination;   ///< with solve = elimination
+    std::optional<SteadyState> steady;        ///< of the functional average; a window is then one mean
+    std::optional<Discrete> discrete;
+    bool normalise = false;              ///< rows are divided by their largest entry, columns tested against rounding
     std::vector<std::string> notes;   ///< what was chosen for the user, in words
 
     int samples() const { return intervals + 1; }
@@ -208,10 +307,16 @@ struct Plan {
     /// That are estimated; perturbations stand behind them.
     int estimated() const { return static_cast<int>(parameters.size() - perturbation.size()); }
     bool uncertain() const { return !noise.empty(); }
-    /// From a start or restart: the window, the instants of S(t), the samples that a first mean and a delayed model need before.
+    int longest_wait() const {
+        int longest = 0;
+        for (const Input& i : inputs) longest = i.wait > longest ? i.wait : longest;
+        return longest;
+    }
+    /// From a start or restart: the window, the instants of S(t), the samples that a first mean, a delayed model and a late sensor need before.
     int samples_to_first_estimate() const {
+        if (steady) return steady->block + longest_wait();
         const int instants = (moments && moments->shortest > 0 ? moments->shortest : samples()) + (solve_instants > 0 ? solve_instants - 1 : 0);
-        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0) + delay_length();
+        return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0) + delay_length() + longest_wait();
     }
     /// Samples that the lines of past inputs hold; 0: there are none.
     int delay_length() const {

@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "generator/elimination_data.hpp"
+
 namespace algest::generator {
 
 namespace {
@@ -43,6 +45,25 @@ private:
     std::uint64_t state_ = 0xCBF29CE484222325ULL;
 };
 
+void add_elimination(const plan::Plan& plan, Hash& hash) {
+    if (!plan.elimination) return;
+    const auto data = plan::make_elimination<double>(plan.elimination);
+    for (const double size : data.sizes) hash.add(size);
+    for (const EliminationStage& s : data.stages) {
+        for (const std::uint16_t number : {s.first_column, s.columns, s.alone, s.summands, s.x, s.y, s.squares, s.degree_x, s.degree_y, s.terms, s.factors, s.resultant_degree, s.degree_of_first}) {
+            hash.add(static_cast<int>(number));
+        }
+    }
+    for (const auto& a : data.alone) {
+        hash.add(static_cast<int>(a.parameter));
+        hash.add(static_cast<int>(a.squared));
+        hash.add(a.coefficient);
+    }
+    for (const std::uint16_t column : data.column_of) hash.add(static_cast<int>(column));
+    for (const std::vector<double>* numbers : {&data.coefficient_of, &data.terms}) for (const double x : *numbers) hash.add(x);
+    for (const std::vector<std::uint8_t>* numbers : {&data.exponents, &data.factors}) for (const std::uint8_t x : *numbers) hash.add(static_cast<int>(x));
+}
+
 }  // namespace
 
 std::string plan_hash(const plan::Plan& plan) {
@@ -82,7 +103,7 @@ std::string plan_hash(const plan::Plan& plan) {
         hash.add(static_cast<int>(plan.moments->accumulators));
         for (const plan::MomentTable& t : plan.moments->tables) {
             for (const std::vector<double>* numbers : {&t.coefficients, &t.rests, &t.growing, &t.growing_newest}) for (const double x : *numbers) hash.add(x);
-            for (const double x : {t.oldest, t.newest, t.of_one}) hash.add(x);
+            for (const double x : {t.oldest, t.newest, t.of_one, t.gain}) hash.add(x);
         }
     }
     for (const std::vector<plan::Row>* rows : {&plan.rows, &plan.perturbation}) {
@@ -119,10 +140,22 @@ std::string plan_hash(const plan::Plan& plan) {
     }
     hash.add(plan.deviation_limit);
     hash.add(plan.whiten);
+    if (plan.longest_wait() > 0) for (const plan::Input& i : plan.inputs) hash.add(i.wait);
     if (plan.whiten) for (const plan::Lumped& u : plan.lumped) hash.add(u.initial);
+    add_elimination(plan, hash);
+    if (plan.steady) {
+        hash.add(plan.steady->block);
+        for (const plan::Averaged& a : plan.steady->averaged) {
+            hash.add(a.name);
+            hash.add(a.tolerance);
+        }
+        hash.add(plan.steady->quantities);
+        hash.add(plan.steady->stretches);
+    }
     if (plan.ratio) {
         for (const std::vector<double>* numbers : {&plan.ratio->transition, &plan.ratio->before, &plan.ratio->now}) for (const double x : *numbers) hash.add(x);
     }
+    if (plan.normalise) hash.add(true);
     return hash.text();
 }
 

@@ -90,6 +90,7 @@ std::optional<std::vector<ChosenRow>> choose_rows(const model::Model& model, con
         placed = false;
         for (const std::size_t e : silent) {
             if (matching.first_unmatched() < 0) break;
+            if (model.estimator.functional != model::Functional::annihilator && !chosen[e].empty()) continue;   // an instant, or a mean, is one row
             if (!matching.add(sees[e])) continue;
             chosen[e].push_back(static_cast<int>(chosen[e].size()) + 1);
             ++total;

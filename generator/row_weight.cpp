@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include "generator/annihilator.hpp"
 #include "generator/dimension.hpp"
 #include "generator/initial_value.hpp"
-#include "generator/kernel.hpp"
 
 namespace algest::generator {
 
@@ -15,14 +13,14 @@ namespace {
 using exact::Rational;
 
 /// Standard deviation of the residual's largest part, in the unit of the equation as the rows use it.
-std::optional<Rational> noise_of(const model::Model& model, const equation::OperatorForm& form, const lumping::LumpedEquation& lumped) {
+std::optional<Rational> noise_of(const model::Model& model, const equation::OperatorForm& form, const lumping::LumpedEquation& lumped, const RowFunctional& functional) {
     if (form.leading < 0) return std::nullopt;
     const equation::Term& term = form.terms[static_cast<std::size_t>(form.leading)];
     const model::Signal& signal = model.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(term.product[0].atom)].signal)];
     if (!signal.noise || cln::zerop(*signal.noise)) return std::nullopt;
     const auto coefficient = lumped.divided ? std::optional<Rational>(1) : model::at_initial(term.coefficient, model);
     if (!coefficient || cln::zerop(*coefficient)) return std::nullopt;
-    return *signal.noise * cln::abs(*coefficient) * exact::power(*model.window, -form.n);
+    return *signal.noise * cln::abs(*coefficient) * functional.noise_gain(form.n);
 }
 
 /// The unit of the equation's rows: divided, it is that of its highest derivative.
@@ -45,7 +43,8 @@ std::optional<Rational> scale_of(const model::Model& model, std::size_t e, const
 }  // namespace
 
 std::optional<RowWeights> row_weights(const model::Model& model, const std::vector<equation::OperatorForm>& forms,
-                                      const lumping::Lumping& lumping, const std::vector<ChosenRow>& rows, Diagnostics& diagnostics) {
+                                      const lumping::Lumping& lumping, const std::vector<ChosenRow>& rows, RowFunctional& functional,
+                                      Diagnostics& diagnostics) {
     if (model.estimator.solve == model::Solver::square && rows.size() == lumping.unknowns.size()) return RowWeights(rows.size(), 1);
 
     const std::size_t equations = model.equations.size();
@@ -64,11 +63,11 @@ std::optional<RowWeights> row_weights(const model::Model& model, const std::vect
             const units::Unit mine = unit_of_rows(model, e, forms[e], lumping.equations[e]);
             const units::Unit theirs = unit_of_rows(model, other, forms[other], lumping.equations[other]);
             mixed = mixed || (mine.known() && theirs.known() && !mine.same_dimension(theirs));
-            all_noisy = all_noisy && noise_of(model, forms[other], lumping.equations[other]).has_value();
+            all_noisy = all_noisy && noise_of(model, forms[other], lumping.equations[other], functional).has_value();
             all_scaled = all_scaled && scale_of(model, other, lumping.equations[other]).has_value();
         }
         if (all_noisy) {
-            size[e] = *noise_of(model, forms[e], lumping.equations[e]);
+            size[e] = *noise_of(model, forms[e], lumping.equations[e], functional);
         } else if (all_scaled) {
             size[e] = *scale_of(model, e, lumping.equations[e]);
         } else if (mixed) {
@@ -80,7 +79,7 @@ std::optional<RowWeights> row_weights(const model::Model& model, const std::vect
     RowWeights out;
     for (const ChosenRow& row : rows) {
         const std::size_t e = static_cast<std::size_t>(row.equation);
-        const Rational norm2 = kernel::square_norm(annihilator::kernel(forms[e].n, row.p, {forms[e].n, model.equations[e].kappa, model.estimator.form}));
+        const Rational norm2 = functional.square_norm(e, row.p);
         out.push_back(1 / exact::power_of_two_near_root(norm2 * size[e] * size[e]));
     }
     return out;

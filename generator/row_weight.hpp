@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "generator/row_choice.hpp"
+#include "generator/row_functional.hpp"
 
 namespace algest::generator {
 
@@ -12,10 +12,11 @@ namespace algest::generator {
 using RowWeights = std::vector<exact::Rational>;
 
 /// 1 for a square system. Where rows are pooled, row p of an equation is divided by the norm of its kernel of order n and by
-/// the noise of its equation: declared noise of the signal with the highest derivative times |its coefficient| / T^n, else the
-/// written scale, else 1 where all equations that share unknowns have one unit. Rounded to powers of two, so that they cost
+/// the noise of its equation: declared noise of the signal with the highest derivative times |its coefficient| and what the functional
+/// makes of it, else the written scale, else 1 where all equations that share unknowns have one unit. Rounded to powers of two, so that they cost
 /// no digit. Complains where units are mixed and neither is declared.
 std::optional<RowWeights> row_weights(const model::Model& model, const std::vector<equation::OperatorForm>& forms,
-                                      const lumping::Lumping& lumping, const std::vector<ChosenRow>& rows, Diagnostics& diagnostics);
+                                      const lumping::Lumping& lumping, const std::vector<ChosenRow>& rows, RowFunctional& functional,
+                                      Diagnostics& diagnostics);
 
 }  // namespace algest::generator

@@ -61,7 +61,7 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
         case Kind::number: break;
         case Kind::name: {
             const int signal = model_.signal_index(f->name);
-            if (signal >= 0) return add(delayed ? Op::previous : Op::input, inputs_.signal[static_cast<std::size_t>(signal)]);
+            if (signal >= 0) return this->signal(signal, delayed);
             if (inputs_.parameter.empty()) throw std::logic_error("a parameter inside a signal: " + f->name);
             return add(Op::input, inputs_.parameter[static_cast<std::size_t>(model_.parameter_index(f->name))]);
         }
@@ -70,7 +70,10 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
             if (f->name == "der") return derivative(f);
             if (f->name == "delay") return delayed_input(inputs_.delay.at({formula::text(f), delayed}));
             const auto relay = inputs_.relay.find(f.get());
-            if (relay != inputs_.relay.end()) return add(Op::input, relay->second);
+            if (relay != inputs_.relay.end()) {
+                const int value = add(Op::input, relay->second.input);
+                return relay->second.turned ? add(Op::neg, value) : value;
+            }
             const int a = formula(f->arguments[0], delayed);
             const auto layer = inputs_.layer.find(f.get());
             if (layer != inputs_.layer.end()) {
@@ -99,6 +102,13 @@ int TapeBuilder::formula(const formula::Formula& f, bool delayed) {
         }
     }
     throw std::logic_error("a number without a value");
+}
+
+int TapeBuilder::signal(int k, bool delayed) {
+    const int input = inputs_.signal[static_cast<std::size_t>(k)];
+    const formula::Formula& computed = model_.signals[static_cast<std::size_t>(k)].formula;
+    if (input < 0 && computed) return formula(computed, delayed);
+    return add(delayed ? Op::previous : Op::input, input);
 }
 
 int TapeBuilder::derivative(const formula::Formula& der) {

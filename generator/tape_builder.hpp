@@ -19,12 +19,18 @@ struct DelayedInput {
     exact::Rational rest;    ///< of the older one, 0 to 1
 };
 
+/// The value of a sgn() as an input of the tape.
+struct Relay {
+    int input;
+    bool turned;   ///< minus the input
+};
+
 /// Which inputs of the tape the names of a model are.
 struct TapeInputs {
-    std::vector<int> signal;                               ///< by the model's signals; -1: not an input
+    std::vector<int> signal;                               ///< by the model's signals; -1: not an input, a computed one is then its formula
     std::vector<int> parameter = {};                       ///< by the model's parameters; empty: they may not occur
     std::map<std::pair<int, int>, int> derivative = {};    ///< (signal, order); one that is not here is left to the parabola filter
-    std::map<const formula::Node*, int> relay = {};        ///< calls of sgn() whose value is an input; none else
+    std::map<const formula::Node*, Relay> relay = {};      ///< calls of sgn() whose value is an input; none else
     std::map<const formula::Node*, int> layer = {};        ///< calls of sgn() that rise from -1 to 1 over twice the width that is an input; none else
     std::map<std::pair<std::string, bool>, DelayedInput> delay = {};   ///< calls of delay(), by their text and whether all is one sample late; one that is not here may not occur
 };
@@ -47,6 +53,8 @@ public:
     int quotient(const Quotient& q, const std::vector<int>& variables = {});
     /// left * right.
     int times(int left, int right) { return add(plan::Op::mul, left, right); }
+    /// A measured or computed signal of the model.
+    int signal(int k, bool delayed = false);
     int input(int k) { return add(plan::Op::input, k); }
 
     /// d operation / d (input k, as `kind` reads it: input, previous or derivative), by the rules of differentiation, operation by

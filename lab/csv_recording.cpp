@@ -89,8 +89,8 @@ Column header_column(const std::string& text, int place, std::string& wrong) {
 /// Reads the rows of one file into a Recording.
 class Reader {
 public:
-    Reader(const std::string& path, const CsvStyle& style, Diagnostics& diagnostics)
-        : style_(style), complaints_(path, diagnostics), lines_(path, diagnostics), row_(style.separator) {
+    Reader(const std::string& path, const CsvStyle& style, TimeBase time, Diagnostics& diagnostics)
+        : style_(style), time_base_(time), complaints_(path, diagnostics), lines_(path, diagnostics), row_(style.separator) {
         recording_.file = path;
     }
 
@@ -215,7 +215,7 @@ private:
                               "one row a sample, two or more");
             return;
         }
-        const TimeCheck check = check_uniform(t, written_);
+        const TimeCheck check = algest::lab::check_time(t, written_, time_base_);
         if (!check.uniform) {
             complain_of(*check.uneven);
             return;
@@ -240,6 +240,7 @@ private:
     }
 
     CsvStyle style_;
+    TimeBase time_base_;
     Complaints complaints_;
     TextLines lines_;
     CsvRow row_;
@@ -252,8 +253,8 @@ private:
 
 }  // namespace
 
-std::optional<Recording> read_csv_recording(const std::string& path, const CsvStyle& style, Diagnostics& diagnostics) {
-    return Reader(path, style, diagnostics).read();
+std::optional<Recording> read_csv_recording(const std::string& path, const CsvStyle& style, TimeBase time, Diagnostics& diagnostics) {
+    return Reader(path, style, time, diagnostics).read();
 }
 
 }  // namespace algest::lab

@@ -10,6 +10,6 @@
 namespace algest::lab {
 
 /// What read_recording says of text files.
-std::optional<Recording> read_csv_recording(const std::string& path, const CsvStyle& style, Diagnostics& diagnostics);
+std::optional<Recording> read_csv_recording(const std::string& path, const CsvStyle& style, TimeBase time, Diagnostics& diagnostics);
 
 }  // namespace algest::lab

@@ -200,7 +200,6 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     out.doubts = doubts(bench, *nominal, selection, out.verdict);
     bool stands = names_something(out.verdict);
     out.evidence = std::move(selection.evidence);
-    if (!stands) for (Evidence& e : out.evidence) e.chosen = e.rival = false;   // tried, and not enough
     const Variant* amended = stands ? &selection.best : nullptr;
     if (stands) for (const Amendment& a : selection.best.amendments) out.effects.push_back(named(selection.best, a, effects));
     if (out.verdict == Verdict::ambiguous) tell_apart(selection, effects, out);

@@ -70,6 +70,10 @@ Curve thinned(const Curve& points, double x_from, double x_to, double y_from, do
     return out;
 }
 
+// Of the range: points of two branches alternate in x, so that a point stands as far from the mean of its neighbours as the branches are
+// apart. A panel of 200 px shows 6 px then, no more than the dots that would be drawn instead of the line: nothing is lost by the line.
+constexpr double least_fork = 0.03;
+
 bool is_function(const Curve& sorted) {
     if (sorted.x.size() < 8) return false;
     const auto [low, high] = std::minmax_element(sorted.y.begin(), sorted.y.end());
@@ -79,7 +83,7 @@ bool is_function(const Curve& sorted) {
     for (std::size_t k = 1; k + 1 < sorted.y.size(); ++k) bends.push_back(std::abs(sorted.y[k] - 0.5 * (sorted.y[k - 1] + sorted.y[k + 1])) / range);
     const auto ninth = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() * 9 / 10);
     std::nth_element(bends.begin(), ninth, bends.end());
-    return *ninth < 0.03;
+    return *ninth < least_fork;
 }
 
 Curve mean_line(const Curve& sorted, std::size_t columns) {

@@ -16,7 +16,6 @@ namespace {
 using State = std::vector<double>;
 using Stepper = boost::numeric::odeint::runge_kutta_dopri5<State>;
 
-constexpr double largest_excursion = 1e6;      ///< times the scale: diverged
 constexpr int most_steps_in_a_span = 20000;    ///< stiffer than that is a diverged run too,
 constexpr std::size_t most_steps_a_sample = 30;    ///< and so is more than this on average
 
@@ -36,6 +35,8 @@ public:
         for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
         scale_ = options.scale;
         scale_.resize(system.states.size(), 1.0);
+        farthest_ = options.farthest;
+        farthest_.resize(system.states.size(), std::numeric_limits<double>::max());
     }
 
     FreeRun over(const std::vector<double>& initial, const std::function<void(double)>& progress) {
@@ -316,7 +317,7 @@ private:
     }
 
     bool finite(const State& x) const {
-        for (std::size_t i = 0; i < x.size(); ++i) if (!(std::abs(x[i]) <= largest_excursion * scale_[i])) return false;
+        for (std::size_t i = 0; i < x.size(); ++i) if (!(std::abs(x[i]) <= farthest_[i])) return false;
         return true;
     }
 
@@ -440,6 +441,7 @@ private:
     State error_;
     std::vector<std::size_t> entry_input_;
     std::vector<double> scale_;
+    std::vector<double> farthest_;
     std::vector<double> argument_scale_;
     std::vector<int> recorded_;          ///< signals that are kept, beside those of laws
     std::vector<SamplesAgo> ago_;        ///< by delayed signal

@@ -39,7 +39,8 @@ constexpr double thin_layer = 5e-3;
 
 struct RunOptions {
     double tolerance = 1e-8;                      ///< local, relative to the scale of each state
-    std::vector<double> scale;                    ///< by state entry: typical size; a run beyond 1e6 times it has diverged
+    std::vector<double> scale;                    ///< by state entry: typical size
+    std::vector<double> farthest;                 ///< by state entry: a run beyond it has diverged
     std::size_t first = 0;                        ///< sample at which the run starts
     std::size_t end = 0;                          ///< sample before which it ends; 0: where the drive does
     std::size_t stride = 1;                       ///< every how many samples the run is kept; above 1 for systems that nothing drives

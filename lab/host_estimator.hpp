@@ -12,6 +12,7 @@
 #include "algest/delay_line.hpp"
 #include "algest/estimator.hpp"
 #include "algest/parabola_filter.hpp"
+#include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
 #include "generator/plan.hpp"
 #include "generator/tape.hpp"
@@ -43,16 +44,18 @@ public:
           ratio_(size(ratio_scalars(blueprint_.ratio.used, blueprint_.unknowns))),
           boxcar_(size(boxcar_scalars(blueprint_.signals))),
           means_(size(blueprint_.signals)),
-          push_scratch_(size(push_scratch(blueprint_.rows.rows, blueprint_.unknowns))),
+          push_scratch_(size(push_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns))),
           estimate_scratch_(size(uncertainty_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns,
                                                      plan.solve_instants) +
-                                 packed_size(blueprint_.unknowns))),
+                                 packed_size(blueprint_.unknowns) + elimination_scratch(blueprint_.elimination.view()))),
+          waiting_(size(plan.longest_wait() + 1) * plan.inputs.size()),
+          aligned_(plan.inputs.size()),
           previous_(plan.inputs.size()),
           filters_(plan.inputs.size()),
           derivatives_(plan.inputs.size()),
           signal_values_(plan.signals.operations.size()),
           signals_(plan.signals.results.size()),
-          lumped_(plan.lumped.size() + plan.perturbation.size()),
+          lumped_(std::max(plan.lumped.size() + plan.perturbation.size(), plan.parameters.size())),
           map_values_(plan.parameter_map.operations.size()),
           mapped_(plan.parameter_map.results.size()),
           parameters_(plan.parameters.size()),
@@ -64,6 +67,13 @@ public:
           bias_(plan.parameters.size()) {
         for (const plan::WindowSignal& s : plan.window_signals) held_.push_back(s.held ? 1 : 0);
         held_.resize(size(blueprint_.signals), 0);
+        if (plan.steady) {
+            for (const plan::Averaged& a : plan.steady->averaged) tolerance_.push_back(static_cast<S>(a.tolerance));
+            steady_.resize(size(steady_scalars(static_cast<int>(tolerance_.size()))));
+            quantity_values_.resize(plan.steady->quantities.operations.size());
+            quantities_.resize(tolerance_.size());
+            point_means_.resize(tolerance_.size());
+        }
         reset();
     }
 
@@ -73,6 +83,11 @@ public:
         reset_moments(moments_);
         run_ = 0;
         block_ = {};
+        point_ = {};
+        solved_ = never;
+        points_ = 0;
+        waiting_at_ = 0;
+        waited_ = 0;
         delay_ = {};
         status_ = Status::filling;
         condition_ = std::numeric_limits<S>::infinity();
@@ -81,8 +96,10 @@ public:
 
     /// Takes one sample: plan.inputs values, in the plan's units. Total: every input is answered.
     /// Cost: that of the runtime's push, and one operation per entry of the signals' tape.
-    void push(const S* inputs) {
-        if (!acceptable(inputs)) return refuse();
+    void push(const S* newest_sample) {
+        if (!acceptable(newest_sample)) return refuse();
+        if (!align(newest_sample)) return algest::prime(memory());
+        const S* inputs = aligned_.data();
         if (!plan_->past.empty() && !look_back(inputs)) return algest::prime(memory());
         if (delayed_) {
             if (run_ == 0) {
@@ -92,6 +109,10 @@ public:
             }
             differentiate(inputs);
             run_ = 2;
+        }
+        if (plan_->steady) {
+            if (!average_point(inputs)) return;
+            inputs = point_means_.data();
         }
         plan::evaluate(plan_->signals, plan_->past.empty() ? inputs : all_inputs_.data(), previous_.data(), derivatives_.data(), signal_values_.data(),
                        signals_.data());
@@ -108,8 +129,11 @@ public:
 
     /// Solves with the windows as they are now. Cost: that of the runtime's estimate, and the parameter map.
     Status estimate() {
+        const std::uint32_t now = progress_.sequence;
+        if (plan_->steady && now == solved_) return status_;   // no operating point since
         const Latest<S> latest = algest::estimate(blueprint_.view(), memory(), estimate_scratch_.data(), lumped_.data());
         if (!latest.current) return status_;
+        solved_ = now;
         status_ = latest.status;
         condition_ = latest.condition;
         if (status_ == Status::ok && !map_parameters()) status_ = Status::singular;
@@ -144,15 +168,72 @@ public:
     const std::vector<S>& bias() const { return bias_; }
 
     Status status() const { return status_; }
+    /// Operating points since the start, and the means of the newest: one per plan.steady->averaged.
+    std::size_t points() const { return points_; }
+    const std::vector<S>& point() const { return point_means_; }
+    /// Every candidate of an elimination with the rows as they are now, stage after stage. Cost: that of estimate.
+    std::vector<Candidate<double>> candidates() {
+        std::vector<Candidate<S>> found(most_candidates);
+        CandidateList<S> list{found.data(), most_candidates, 0};
+        const int columns = blueprint_.unknowns;
+        if (plan_->elimination && progress_.absorbed != 0U) {
+            (void)eliminate(blueprint_.elimination.view(), sums_.data(), columns, estimate_scratch_.data(), lumped_.data(), &list);
+        }
+        std::vector<Candidate<double>> out;
+        for (int k = 0; k < list.count; ++k) {
+            const Candidate<S>& c = found[size(k)];
+            out.push_back({c.stage, static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.error), c.standing});
+        }
+        return out;
+    }
     /// Of the scaled matrix that was solved last; infinity unless the status is ok or singular.
     S condition() const { return condition_; }
     /// One per plan.parameters, in its unit: of the last ok step, else the initial values.
     const std::vector<S>& parameters() const { return parameters_; }
 
 private:
+    static constexpr std::uint32_t never = 1;   ///< no sequence at rest is odd
+    static constexpr int most_candidates = 200;
+
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
     Memory<S> memory() { return {rings_.data(), sums_.data(), published_.data(), &progress_, whitened_at_.data(), ratio_.data()}; }
+
+    /// Puts the values of one instant into aligned_: each input's of as many samples ago as it waits. False while there are too few.
+    bool align(const S* newest_sample) {
+        const std::size_t width = aligned_.size();
+        const int longest = plan_->longest_wait();
+        std::copy_n(newest_sample, width, waiting_.begin() + static_cast<std::ptrdiff_t>(size(waiting_at_) * width));
+        const int now = waiting_at_;
+        waiting_at_ = now == longest ? 0 : now + 1;
+        if (waited_ < longest) {
+            ++waited_;
+            return false;
+        }
+        for (std::size_t i = 0; i < width; ++i) {
+            const int wait = plan_->inputs[i].wait;
+            aligned_[i] = waiting_[size(now >= wait ? now - wait : now + longest + 1 - wait) * width + i];
+        }
+        return true;
+    }
+
+    /// Takes a sample into the block; true when it ends a steady one, whose means are then the newest operating point.
+    bool average_point(const S* inputs) {
+        const plan::SteadyState& steady = *plan_->steady;
+        plan::evaluate<S>(steady.quantities, inputs, nullptr, nullptr, quantity_values_.data(), quantities_.data());
+        const int count = static_cast<int>(quantities_.size());
+        if (!all_finite(quantities_.data(), count)) {
+            refuse();
+            return false;
+        }
+        const S stretch = steady.stretches < 0 ? S(1) : inputs[steady.stretches];
+        if (average_steady(steady_.data(), point_, tolerance_.data(), count, steady.block, stretch, quantities_.data(), point_means_.data())) {
+            ++points_;
+            return true;
+        }
+        if (progress_.rejected != 0U) algest::prime(memory());
+        return false;
+    }
 
     /// True when every input is finite and inside its declared limits.
     bool acceptable(const S* inputs) const {
@@ -202,8 +283,10 @@ private:
     /// Windows, filters and the memory of the sample before start anew.
     void refuse() {
         absorb(nullptr);
+        waited_ = 0;
         run_ = 0;
         block_ = {};
+        point_ = {};
         delay_ = {};
     }
 
@@ -236,8 +319,20 @@ private:
     std::vector<S> means_;
     std::vector<unsigned char> held_;
     BoxcarProgress block_{};
+    SteadyProgress point_{};
+    std::uint32_t solved_ = never;
+    std::size_t points_ = 0;
+    std::vector<S> tolerance_;
+    std::vector<S> steady_;
+    std::vector<S> quantity_values_;
+    std::vector<S> quantities_;
+    std::vector<S> point_means_;
     std::vector<S> push_scratch_;
     std::vector<S> estimate_scratch_;
+    std::vector<S> waiting_;   ///< the newest samples, a ring
+    std::vector<S> aligned_;
+    int waiting_at_ = 0;       ///< where the next sample goes
+    int waited_ = 0;           ///< samples since the last restart, at most the longest wait
     std::vector<S> previous_;
     std::vector<ParabolaFilter<S>> filters_;
     std::vector<S> derivatives_;  ///< per second

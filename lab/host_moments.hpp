@@ -17,13 +17,15 @@ struct MomentState {
         : data(plan::make_moments<S, A>(plan)),
           accumulators(static_cast<std::size_t>(moment_accumulators<A>(plan.rings(), plan.moments->degree, plan.moments->shortest > 0))),
           references(static_cast<std::size_t>(moment_references<A>(plan.rings()))),
+          sizes(references.size()),
           scratch(static_cast<std::size_t>(moment_scratch(plan.rings(), plan.moments->degree))) {}
 
-    MomentMemory<S, A> memory() { return {accumulators.data(), references.data(), &progress}; }
+    MomentMemory<S, A> memory() { return {accumulators.data(), references.data(), sizes.data(), &progress}; }
 
     plan::MomentData<S, A> data;
     std::vector<A> accumulators;
     std::vector<S> references;
+    std::vector<S> sizes;
     std::vector<A> scratch;
     MomentProgress progress{};
 };

@@ -49,7 +49,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor) {
-        if ((best.score.gap() > too_far_for_noise || structured(bench, best)) && !white(best.score)) return Verdict::unknown;
+        if ((best.score.gap() > too_far_for_noise && !white(best.score)) || structured(bench, best)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
@@ -69,7 +69,10 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         if (over > too_far_for_noise && white(best.score)) out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, over));
         else if (over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
     }
-    for (std::string& doubt : recording_doubts(nominal.model, nominal.bench)) out.push_back(std::move(doubt));
+    for (std::size_t r = 0; r < bench.recordings(); ++r) {
+        const std::string where = bench.recordings() > 1 ? bench.recording(r).file + ": " : "";
+        for (const std::string& doubt : recording_doubts(nominal.model, bench_of(nominal, r))) out.push_back(where + doubt);
+    }
     if (verdict != Verdict::none) {
         for (const std::string& e : unseen(nominal)) out.push_back(fmt::format("'{}' has a signal that is not measured: only the free run could look for what it lacks", e));
     }
@@ -79,6 +82,7 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
                                   100 * best.score.nrmse, 100 * nominal.score.nrmse));
     }
     if (verdict != Verdict::named && verdict != Verdict::ambiguous) return out;
+    for (const std::string& name : selection.as_well) out.push_back(fmt::format("{} explains the recording as well: what adds a term is named before what bends the model", name));
     for (const Amendment& a : best.amendments) {
         for (const NewName& n : a.names) {
             const int p = best.model.parameter_index(n.name);

@@ -66,7 +66,7 @@ std::optional<std::string> unit_of(matvar_t* units, const std::string& name) {
 /// Reads one file into a Recording. Its places are elements, "u(12)", for it has no lines.
 class MatReader {
 public:
-    MatReader(const std::string& path, Diagnostics& diagnostics) : path_(path), diagnostics_(diagnostics) { recording_.file = path; }
+    MatReader(const std::string& path, TimeBase time, Diagnostics& diagnostics) : path_(path), time_base_(time), diagnostics_(diagnostics) { recording_.file = path; }
 
     std::optional<Recording> read() {
         const File file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
@@ -115,7 +115,7 @@ private:
             refuse("the unit " + quoted(*t.unit) + " of `t` is not one of time", "units.t = \"s\"");
             return false;
         }
-        const TimeCheck check = check_uniform(t.values, {0, digits_of_a_double});
+        const TimeCheck check = algest::lab::check_time(t.values, {0, digits_of_a_double}, time_base_);
         if (!check.uniform) {
             const UnevenStep& u = *check.uneven;
             refuse(fmt::format("`t` is not uniform: a step of {:.6g} {} at t({}), {:.6g} {} elsewhere", u.step, *t.unit, u.row + 1, u.period, *t.unit), "equal steps, that increase");
@@ -126,6 +126,7 @@ private:
     }
 
     std::string path_;
+    TimeBase time_base_;
     Diagnostics& diagnostics_;
     Variable units_;
     std::size_t samples_ = 0;
@@ -134,6 +135,6 @@ private:
 
 }  // namespace
 
-std::optional<Recording> read_mat_recording(const std::string& path, Diagnostics& diagnostics) { return MatReader(path, diagnostics).read(); }
+std::optional<Recording> read_mat_recording(const std::string& path, TimeBase time, Diagnostics& diagnostics) { return MatReader(path, time, diagnostics).read(); }
 
 }  // namespace algest::lab

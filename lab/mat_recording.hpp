@@ -10,6 +10,6 @@
 namespace algest::lab {
 
 /// What read_recording says of .mat files.
-std::optional<Recording> read_mat_recording(const std::string& path, Diagnostics& diagnostics);
+std::optional<Recording> read_mat_recording(const std::string& path, TimeBase time, Diagnostics& diagnostics);
 
 }  // namespace algest::lab

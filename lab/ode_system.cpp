@@ -6,6 +6,7 @@
 
 #include "generator/delay.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/lone_argument.hpp"
 #include "lab/outputs.hpp"
 
 namespace algest::lab {
@@ -36,6 +37,9 @@ public:
     Compiler(const model::Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
 
     std::optional<OdeSystem> run() {
+        for (const model::Signal& s : model_.signals) {
+            if (s.formula) return fail(s.at, "'" + s.name + "' is computed by a formula, which a simulation does not know", "write the formula in the equations");
+        }
         if (model_.equations.empty()) return fail({}, "no equations", "a simulation needs equations of motion");
         const auto outputs = output_order(model_, diagnostics_);
         if (!outputs) return std::nullopt;
@@ -254,26 +258,43 @@ private:
         out_.delay_input = out_.inputs;
         for (const model::Delay& d : delays_) tape_inputs_.delay[{d.text, false}] = {plan::Op::input, out_.inputs++, -1, 0};
         out_.relay_input = out_.inputs;
-        number_switches(tape_inputs_.relay, relay_arguments_, [](const Formula& argument) { return is_lone(argument); });
-        number_switches(tape_inputs_.layer, layer_arguments_, [](const Formula& argument) { return !is_lone(argument); });
+        number_relays();
+        number_layers();
     }
 
-    static bool is_lone(const Formula& argument) { return argument->kind == Kind::name || is_derivative(argument); }
-
-    /// An input for every sgn() that moves with the state and whose argument is one of those asked for; one, however often it is written.
-    template <class Asked>
-    void number_switches(std::map<const formula::Node*, int>& input, std::vector<Formula>& arguments, Asked asked) {
-        std::map<std::string, int> known;
+    template <class Use>
+    void each_switch(Use use) const {
         for (const model::Equation* e : motion_) {
             each_node(*e, [&](const Formula& f) {
-                if (f->kind != Kind::call || f->name != "sgn" || !moves_with_state(f->arguments[0]) || !asked(f->arguments[0])) return;
-                const auto [at, fresh] = known.emplace(formula::text(f->arguments[0]), out_.inputs);
-                input[f.get()] = at->second;
-                if (!fresh) return;
-                ++out_.inputs;
-                arguments.push_back(f->arguments[0]);
+                if (f->kind != Kind::call || f->name != "sgn" || !moves_with_state(f->arguments[0])) return;
+                use(f, lone_argument(model_, f->arguments[0], [this](int signal) { return moves(signal); }));
             });
         }
+    }
+
+    /// One input for all that switch together: relays that held the same state would each take the whole of what holds it.
+    void number_relays() {
+        std::map<std::string, std::pair<int, bool>> known;   // input, and whether the argument whose sgn it is falls
+        each_switch([&](const Formula& f, const std::optional<LoneArgument>& lone) {
+            if (!lone) return;
+            const auto [at, fresh] = known.emplace(lone->switches_at, std::pair{out_.inputs, lone->falls});
+            tape_inputs_.relay[f.get()] = {at->second.first, lone->falls != at->second.second};
+            if (!fresh) return;
+            ++out_.inputs;
+            relay_arguments_.push_back(f->arguments[0]);
+        });
+    }
+
+    void number_layers() {
+        std::map<std::string, int> known;
+        each_switch([&](const Formula& f, const std::optional<LoneArgument>& lone) {
+            if (lone) return;
+            const auto [at, fresh] = known.emplace(formula::text(f->arguments[0]), out_.inputs);
+            tape_inputs_.layer[f.get()] = at->second;
+            if (!fresh) return;
+            ++out_.inputs;
+            layer_arguments_.push_back(f->arguments[0]);
+        });
     }
 
     bool moves_with_state(const Formula& f) const {

@@ -17,7 +17,7 @@ struct StateEntry {
     int order;
 };
 
-/// A sgn() of one signal that moves: it switches, or holds its argument at zero (Filippov).
+/// A sgn() of one signal that moves, or of what is affine in it: it switches, or holds its argument at zero (Filippov).
 struct Relay {
     int argument;   ///< result of the tape that is its argument
 };

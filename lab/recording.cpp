@@ -57,17 +57,18 @@ std::string Recording::column_names() const {
     return out;
 }
 
-void Recording::set_time(const std::vector<double>& instants, const UniformTime& uniform, const units::Conversion& to_seconds) {
+void Recording::set_time(const std::vector<double>& instants, const UniformTime& found, const units::Conversion& to_seconds) {
     t = instants;
     if (to_seconds.scale != 1.0 || to_seconds.offset != 0.0) {
         for (double& instant : t) instant = instant * to_seconds.scale + to_seconds.offset;
     }
-    period = uniform.period * to_seconds.scale;
-    period_uncertainty = uniform.uncertainty * to_seconds.scale;
+    uniform = found.uniform;
+    period = found.period * to_seconds.scale;
+    period_uncertainty = found.uncertainty * to_seconds.scale;
 }
 
-std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics, const CsvStyle& style) {
-    return std::string_view(path).ends_with(".mat") ? read_mat_recording(path, diagnostics) : read_csv_recording(path, style, diagnostics);
+std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics, const CsvStyle& style, TimeBase time) {
+    return std::string_view(path).ends_with(".mat") ? read_mat_recording(path, time, diagnostics) : read_csv_recording(path, style, time, diagnostics);
 }
 
 std::optional<std::vector<double>> signal_values(const Recording& recording, const WantedSignal& wanted,

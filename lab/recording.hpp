@@ -26,14 +26,15 @@ struct Recording {
     std::vector<double> t;        ///< s, increasing, uniform
     int time_place;               ///< character column of the header of t
     double period;                ///< s, mean step
+    bool uniform = true;          ///< false only where TimeBase::increasing was asked for
     double period_uncertainty;    ///< s, from the digits in which t is written
 
     std::size_t samples() const { return t.size(); }
     const Column* column(const std::string& name) const;  ///< null: there is none
     std::string column_names() const;                     ///< for messages: `a`, `b`, `t`
 
-    /// Takes instants that were found uniform, both in one unit.
-    void set_time(const std::vector<double>& instants, const UniformTime& uniform, const units::Conversion& to_seconds);
+    /// Takes instants that were found right, both in one unit.
+    void set_time(const std::vector<double>& instants, const UniformTime& found, const units::Conversion& to_seconds);
 };
 
 /// Complaints after which reading stops.
@@ -50,10 +51,10 @@ struct CsvStyle {
 /// in s if they do not. Other variables are left out, with a note.
 /// All others are CSV, as they are or gzipped. Accepted: UTF-8 with or without byte-order mark, LF or CRLF, quoted fields, blanks around
 /// fields, blank lines at the end, two rows or more. Refused with line and column: everything that is no plain finite number in a field,
-/// rows of another length than the header, columns of one name, a time that is not uniform (check_uniform) or has no unit
+/// rows of another length than the header, columns of one name, a time that is not what `time` asks for (check_time) or has no unit
 /// of time, and what TextLines refuses. Nullopt if anything was refused.
 /// Cost: linear in the file; all columns are kept in memory, 8 bytes a value.
-std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics, const CsvStyle& style = {});
+std::optional<Recording> read_recording(const std::string& path, Diagnostics& diagnostics, const CsvStyle& style = {}, TimeBase time = TimeBase::uniform);
 
 /// What a model says of a measured signal.
 struct WantedSignal {

@@ -17,20 +17,6 @@ namespace algest::lab {
 
 namespace {
 
-/// Rows of a recording: [begin, end).
-struct RowRange {
-    std::size_t begin;
-    std::size_t end;
-    std::size_t size() const { return end - begin; }
-};
-
-RowRange rows_of(const Recording& recording, const Stretch& stretch) {
-    const std::vector<double>& t = recording.t;
-    const auto begin = std::lower_bound(t.begin(), t.end(), stretch.from);
-    const auto end = std::upper_bound(begin, t.end(), stretch.to);
-    return {static_cast<std::size_t>(begin - t.begin()), static_cast<std::size_t>(end - t.begin())};
-}
-
 bool check_length(const plan::Plan& plan, const Recording& recording, RowRange rows, Diagnostics& diagnostics) {
     const int needed = plan.samples_to_first_estimate();
     if (rows.size() >= static_cast<std::size_t>(needed)) return true;
@@ -45,22 +31,13 @@ bool check_length(const plan::Plan& plan, const Recording& recording, RowRange r
     return false;
 }
 
-/// The samples of every input, in the order of plan.inputs; false if one is not to be had.
-bool read_inputs(const plan::Plan& plan, const Recording& recording, std::vector<std::vector<double>>& inputs,
-                 Diagnostics& diagnostics) {
-    for (const plan::Input& input : plan.inputs) {
-        auto values = signal_values(recording, {input.name, input.column, input.unit}, diagnostics);
-        if (values) inputs.push_back(std::move(*values));
-    }
-    return inputs.size() == plan.inputs.size();
-}
-
 template <class S>
 Replay run(const plan::Plan& plan, const Recording& recording, const std::vector<std::vector<double>>& inputs, RowRange rows,
            const ProgressReport& progress) {
     constexpr std::size_t samples_between_reports = 512;
     HostEstimator<S> estimator(plan);
-    Replay out{{}, {}, {}, {}, plan.parameters.size(), {}};
+    Replay out{{}, {}, {}, {}, plan.parameters.size(), {}, {}, {}};
+    out.points.quantities = plan.steady ? plan.steady->averaged.size() : 0;
     out.t.reserve(rows.size());
     out.status.reserve(rows.size());
     out.condition.reserve(rows.size());
@@ -68,7 +45,9 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
     std::vector<S> sample(inputs.size());
     for (std::size_t k = rows.begin; k < rows.end; ++k) {
         for (std::size_t i = 0; i < inputs.size(); ++i) sample[i] = static_cast<S>(inputs[i][k]);
+        const std::size_t points = estimator.points();
         estimator.step(sample.data());
+        if (estimator.points() != points) out.points.means.insert(out.points.means.end(), estimator.point().begin(), estimator.point().end());
         out.t.push_back(recording.t[k]);
         out.status.push_back(estimator.status());
         out.condition.push_back(static_cast<double>(estimator.condition()));
@@ -77,6 +56,7 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
             progress(static_cast<double>(k - rows.begin) / static_cast<double>(rows.size()));
         }
     }
+    if (plan.elimination) out.candidates = named_candidates(plan, estimator.candidates());
     return out;
 }
 

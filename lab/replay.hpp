@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,15 +11,11 @@
 #include "algest/status.hpp"
 #include "generator/diagnostics.hpp"
 #include "generator/plan.hpp"
+#include "lab/operating_points.hpp"
 #include "lab/recording.hpp"
+#include "lab/stretch.hpp"
 
 namespace algest::lab {
-
-/// Seconds of a recording's own `t`, both ends included.
-struct Stretch {
-    double from = -std::numeric_limits<double>::infinity();
-    double to = std::numeric_limits<double>::infinity();
-};
 
 /// What the estimator said at each sample. Values in float estimators are those floats, exactly.
 struct Replay {
@@ -30,6 +25,8 @@ struct Replay {
     std::vector<double> parameters;  ///< samples x parameters
     std::size_t parameter_count;
     std::vector<double> deviations = {};   ///< samples x parameters, NaN where none was computed; empty: none were
+    OperatingPoints points = {};           ///< of the functional average
+    std::vector<EliminationCandidate> candidates = {};   ///< of an elimination, with all rows
 
     std::size_t samples() const { return t.size(); }
     double parameter(std::size_t sample, std::size_t p) const { return parameters[sample * parameter_count + p]; }

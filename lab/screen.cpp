@@ -288,6 +288,9 @@ private:
         const double here = 1 - (left_ + change).squaredNorm() / left_.squaredNorm();
         const double further = std::max(-left_.dot(change) / change.squaredNorm(), 0.0);
         const double there = 1 - (left_ + further * change).squaredNorm() / left_.squaredNorm();
+        c.start = at.parameters;
+        c.share = here;
+        if (c.binding.effect->scans.empty()) return;
         c.share = std::max(here, there);
         const EffectScan& scan = c.binding.effect->scans[0];
         const int p = v.model.parameter_index(scanned_name(v.amendments.back()));

@@ -21,6 +21,7 @@ constexpr double least_strength = 4;            ///< F statistic below which a c
 constexpr double least_share = 0.02;             ///< of the free run's error, the same
 constexpr double a_base_within = 2.0;           ///< validation error of a further base, over that of the best
 constexpr std::size_t bases = 2;                ///< that a further effect is tried beside: the best set of one may not be part of the best of two
+constexpr double on_the_floor = 1.03;           ///< gap that leaves nothing to a second effect
 constexpr double still_falling = 0.7;           ///< validation error over the base's, below which a fit that has not ended goes on
 constexpr double needed_gain = 0.95;            ///< an effect must bring the validation error below this times what it was
 constexpr double needed_significance = 2.5;     ///< standard errors of the difference over blocks (16: a t of 2.5 is 1 in 40)
@@ -200,17 +201,19 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         if (fitted.empty()) break;
         std::vector<std::size_t> order(fitted.size());
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-        std::vector<double> merit;
-        for (const Variant& v : fitted) merit.push_back(criterion(v, nominal));
+        std::vector<std::pair<bool, double>> merit;   // what is worth adding comes first: the criterion counts the rows of a poor fit as few
+        for (const Variant& v : fitted) merit.emplace_back(worth_it(v.score, out.best.score), criterion(v, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
-        // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does: what hangs on the machine, and adds
-        // to the model instead of bending it, goes first where both explain alike.
+        // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does, and so does dry friction that falls:
+        // what hangs on the machine, adds to the model instead of bending it, and has less to fit, goes first where both explain alike.
         const auto effect_of = [&](const Variant& v) -> const Effect& {
             return *std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == v.amendments.back().effect; });
         };
         const auto held_back = [&](const Variant& v) { return effect_of(v).outside || effect_of(v).flexible(); };
-        for (std::size_t k = 1; k < order.size() && held_back(fitted[order[0]]); ++k) {
-            if (!held_back(fitted[order[k]]) && indistinguishable(fitted[order[0]], fitted[order[k]])) std::swap(order[0], order[k]);
+        const auto freedom = [&](const Variant& v) { return std::pair(held_back(v), added_parameters(v)); };
+        const Variant& nearest = fitted[order[0]];
+        for (std::size_t k = 1; k < order.size(); ++k) {
+            if (freedom(fitted[order[k]]) < freedom(fitted[order[0]]) && indistinguishable(nearest, fitted[order[k]])) std::swap(order[0], order[k]);
         }
         const Variant& top = fitted[order[0]];
         std::vector<Base> next;
@@ -227,9 +230,12 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         ahead = false;
         for (const std::size_t r : row[order[0]]) out.evidence[r].chosen = true;
         out.rivals.clear();
+        out.as_well.clear();
         for (const std::size_t k : order) {
-            const bool plausible = held_back(fitted[k]) <= held_back(top) || are_rivals(effect_of(top), effect_of(fitted[k]));
-            if (k != order[0] && plausible && indistinguishable(top, fitted[k])) {
+            if (k == order[0] || !indistinguishable(top, fitted[k])) continue;
+            if (held_back(fitted[k]) > held_back(top)) {
+                if (are_rivals(effect_of(top), effect_of(fitted[k]))) out.as_well.push_back(effect_of(fitted[k]).name);
+            } else if (freedom(fitted[k]) <= freedom(top)) {
                 out.rivals.push_back(fitted[k]);
                 out.evidence[row[k].back()].rival = true;
             }
@@ -237,12 +243,17 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         out.best = sharply_switched(bench, sharpened(bench, top, nominal, effects));
         beside = std::move(next);
         beside[0].variant = out.best;
-        if (out.best.score.gap() <= at_the_floor || bench.used_up()) break;
+        // One effect with much to fit may come near to the floor where two plain ones reach it.
+        const double enough = out.best.amendments.back().names.size() > 1 ? on_the_floor : at_the_floor;
+        if (out.best.score.gap() <= enough || bench.used_up()) break;
     }
     out.cut_short = bench.used_up();
     const std::size_t before = out.best.amendments.size();
     out.best = pruned(bench, out.best, nominal);
-    if (out.best.amendments.size() < before) out.rivals.clear();
+    if (out.best.amendments.size() < before) {
+        out.rivals.clear();
+        out.as_well.clear();
+    }
     return out;
 }
 

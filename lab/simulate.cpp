@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lab/csv_text.hpp"
 
@@ -34,14 +35,17 @@ double initial_value(const model::Signal& signal, const std::vector<double>& mea
     return order <= 2 ? initial_parabola(measured, period)[order] : 0.0;
 }
 
-/// The largest value that was measured; of a hidden state what the model file says of its values.
-double typical_size(const model::Signal& signal, const std::vector<double>& measured) {
+constexpr double largest_excursion = 1e6;   ///< of a state's size: a run beyond it has diverged
+
+/// The largest value measured; of a hidden state, the largest declared: initial, min or max. 0 where nothing says.
+double known_size(const model::Signal& signal, const std::vector<double>& measured) {
     double largest = 0;
     for (const double x : measured) largest = std::max(largest, std::abs(x));
-    for (const auto& said : {signal.initial, signal.min, signal.max}) {
-        if (measured.empty() && said) largest = std::max(largest, std::abs(exact::nearest(*said, plan::Scalar::float64)));
+    if (!measured.empty()) return largest;
+    for (const auto& declared : {signal.initial, signal.min, signal.max}) {
+        if (declared) largest = std::max(largest, exact::nearest(cln::abs(*declared), plan::Scalar::float64));
     }
-    return largest > 0 ? largest : 1.0;
+    return largest;
 }
 
 }  // namespace
@@ -91,8 +95,12 @@ std::optional<Bench> bench(const model::Model& model, const Recording& recording
         const std::vector<double>& measured = out.measured[static_cast<std::size_t>(entry.signal)];
         if (measured.empty() && !signal.initial && entry.order == 0) diagnostics.note(model.path, "the hidden state '" + signal.name + "' starts at 0");
         out.initial.push_back(initial_value(signal, measured, entry.order, out.drive.period));
+        const double known = known_size(signal, measured);
         // A derivative changes by the signal's size within some tens of periods at the fastest.
-        out.options.scale.push_back(typical_size(signal, measured) * std::pow(0.03 / out.drive.period, entry.order));
+        out.options.scale.push_back((known > 0 ? known : 1.0) * std::pow(0.03 / out.drive.period, entry.order));
+        // A hidden state of which nothing is known may go as far as numbers do: in Pa a sound run passes 1e6 at once.
+        const bool bounded = known > 0 || !measured.empty();
+        out.options.farthest.push_back(bounded ? largest_excursion * out.options.scale.back() : std::numeric_limits<double>::max());
     }
     out.system = std::move(*system);
     return out;

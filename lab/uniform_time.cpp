@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace algest::lab {
@@ -98,7 +99,15 @@ TimeCheck check_uniform(const std::vector<double>& t, const WrittenDigits& digit
     if (uneven.count > 0) return {std::nullopt, uneven};
     const double steps = static_cast<double>(t.size() - 1);
     const double rounding = !rounded ? 0.0 : (digits.last_digit(t.front()) + digits.last_digit(t.back())) / 2.0;
-    return {UniformTime{(t.back() - t.front()) / steps, rounding / steps}, std::nullopt};
+    return {UniformTime{(t.back() - t.front()) / steps, rounding / steps, true}, std::nullopt};
+}
+
+TimeCheck check_time(const std::vector<double>& t, const WrittenDigits& digits, TimeBase base) {
+    const TimeCheck check = check_uniform(t, digits);
+    if (check.uniform || base == TimeBase::uniform) return check;
+    const auto back = std::adjacent_find(t.begin(), t.end(), std::greater_equal<>());
+    if (back != t.end()) return {std::nullopt, UnevenStep{static_cast<std::size_t>(back - t.begin()) + 1, back[1] - back[0], 0.0, 1}};
+    return {UniformTime{(t.back() - t.front()) / static_cast<double>(t.size() - 1), 0.0, false}, std::nullopt};
 }
 
 }  // namespace algest::lab

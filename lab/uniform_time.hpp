@@ -20,9 +20,13 @@ struct WrittenDigits {
     double last_digit(double value) const;
 };
 
+/// What instants have to be.
+enum class TimeBase { uniform, increasing };
+
 struct UniformTime {
     double period;       ///< mean step
     double uncertainty;  ///< of the period, from rounding the first and the last instant; 0 where no step shows rounding
+    bool uniform = true; ///< false only where TimeBase::increasing was asked for: then steps differ
 };
 
 /// The first step that breaks the rule, and how many do.
@@ -43,5 +47,8 @@ struct TimeCheck {
 /// steps of two neighbouring values), provided that this unit is at most a tenth of the step: beyond that, rounding
 /// could hide a missing sample. P must be positive. Needs two rows or more. Cost: rows * log(rows).
 TimeCheck check_uniform(const std::vector<double>& t, const WrittenDigits& digits);
+
+/// The same; or, where that is all that is asked for, whether t increases.
+TimeCheck check_time(const std::vector<double>& t, const WrittenDigits& digits, TimeBase base);
 
 }  // namespace algest::lab

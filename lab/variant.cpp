@@ -279,8 +279,10 @@ Score Workbench::rows_score(const Variant& v) const {
             if (is_kinematic(v.model, v.model.equations[e])) continue;   // a definition; every variant scores the same equations
             const auto form = weak_form(v.model, bench, e, rows, intervals);
             if (!form) continue;
-            const Eigen::VectorXd residual = weak_residual(*form, v.fit.parameters);
-            add(out, r, {residual.data(), residual.data() + residual.size()}, driving_size(*form, v.fit.parameters), weak_noise(v.model, bench, e, rows, intervals, v.fit.parameters, noise));
+            // In units of the driving side: an effect that makes that smaller makes the residual smaller, and explains nothing by it.
+            const double size = driving_size(*form, v.fit.parameters);
+            const Eigen::VectorXd residual = weak_residual(*form, v.fit.parameters) / size;
+            add(out, r, {residual.data(), residual.data() + residual.size()}, 1, weak_noise(v.model, bench, e, rows, intervals, v.fit.parameters, noise) / size);
         }
     }
     finish(out);
@@ -318,7 +320,7 @@ bool Workbench::drifts(const Variant& fitted, std::size_t recording) const {
     const Bench& bench = bench_of(fitted, recording);
     const Rows train = parts(recording).train;
     const Rows rows = {train.begin, train.begin + train.size() / 3};
-    constexpr double push = 0.01;
+    constexpr double push = 0.01;   // of a state's size: far above the tolerance of a run, and what is not proportional to it is 1 percent
     const std::vector<double>& start = initial_of(fitted, recording);
     std::vector<double> pushed = start;
     for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] += push * bench.options.scale[i];

@@ -14,7 +14,7 @@ from pathlib import Path
 from definition import bits, definition, moment, nearest_double, nearest_float, polynomial, value, weights
 from environment import ALGEST, SOURCE
 
-MODELS = sorted((SOURCE / "models").glob("*.toml"))
+MODELS = [path for path in sorted((SOURCE / "models").glob("*.toml")) if "functional =" not in path.read_text() and "[discrete]" not in path.read_text()]   # of windows: derivatives have no kernels, discrete.md's have test_discrete_weights
 NEAREST = {"double": nearest_double, "float": nearest_float}
 LEAST_NORMAL = {"double": 2.0 ** -1022, "float": 2.0 ** -126}
 

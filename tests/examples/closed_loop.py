@@ -9,7 +9,8 @@ from environment import BUILD, SOURCE, run
 from figures import faults, page_of, screenshot
 
 # Texts of the figures that are neither a number nor the label of an axis.
-LEGENDS = {"estimate", "truth", "measured", "shaft", "reference", "estimator is fed", "controller is retuned", "i1", "i2", "i3", "λ1", "λ2", "λ3"}
+LEGENDS = {"estimate", "truth", "measured", "shaft", "reference", "estimator is fed", "controller is retuned", "i1", "i2", "i3", "λ1", "λ2", "λ3",
+           "poles of the machine", "poles found", "zeros found", "machine", "model", "N1", "N2", "open loop", "PI alone", "with notches", "wanted"}
 
 
 def program(name):
@@ -25,7 +26,8 @@ class Run:
         self.text = run(program(name), self.csv, *options)
         lines = [re.split(r"\s{2,}", line.strip()) for line in self.text.splitlines()]
         self.rows = {line[0]: [number(word) for word in line[1:]] for line in lines if len(line) > 1}
-        self.fed, self.retuned = map(float, re.search(r"fed from (\S+) s, controller retuned from (\S+) s on", self.text).groups())
+        retuned = re.search(r"fed from (\S+) s, controller retuned from (\S+) s on", self.text)
+        self.fed, self.retuned = map(float, retuned.groups()) if retuned else (None, None)
 
     def errors(self, parameter):
         """Relative errors of a parameter at all instants with status `ok`."""
@@ -34,9 +36,9 @@ class Run:
         return [abs(float(row[parameter]) / float(row[f"true {parameter}"]) - 1.0) for row in ok]
 
 
-def table_of_the_page(name):
-    """What docs/closed-loop.md shows as printed by an example."""
-    page = (SOURCE / "docs" / "closed-loop.md").read_text(encoding="utf-8")
+def table_of_the_page(name, page="closed-loop.md"):
+    """What a page of docs/ shows as printed by an example."""
+    page = (SOURCE / "docs" / page).read_text(encoding="utf-8")
     return re.search(rf"```text {name}\n(.*?)```", page, flags=re.DOTALL)[1]
 
 

@@ -106,14 +106,14 @@ class SeveralRecordings(unittest.TestCase):
 
     def test_what_is_no_set_of_recordings(self):
         good = self.write("good.csv", motor(0.0, 8e-3, 0.0, seconds=1.0))
-        for name, text, words in (("short.csv", "\n".join(good.read_text().splitlines()[:60]) + "\n", "too short"),
-                                  ("column.csv", good.read_text().replace("w [rad/s]", "v [rad/s]"), "w"),
-                                  ("still.csv", "t [s],i [A],w [rad/s]\n" + "".join(f"{k * 1e-3:.3f},1,2\n" for k in range(300)), "from end to end")):
+        for name, text, blamed, words in (("short.csv", "\n".join(good.read_text().splitlines()[:60]) + "\n", "short.csv", "too short"),
+                                           ("column.csv", good.read_text().replace("w [rad/s]", "v [rad/s]"), "motor.toml", "no column 'w'"),
+                                           ("still.csv", "t [s],i [A],w [rad/s]\n" + "".join(f"{k * 1e-3:.3f},1,2\n" for k in range(300)), "still.csv", "from end to end")):
             with self.subTest(name):
                 done = attempt(self.folder / "motor.toml", good, self.folder / "found", self.write(name, text))
                 self.assertEqual(done.returncode, 2, done.stdout)
                 errors = json.loads(done.stdout)["error"]
-                self.assertEqual({Path(e["file"]).name for e in errors}, {name}, errors)
+                self.assertEqual({Path(e["file"]).name for e in errors}, {blamed}, errors)
                 self.assertIn(words, " ".join(e["what"] for e in errors))
                 self.assertFalse((self.folder / "found").exists())
         done = attempt(self.folder / "motor.toml", good, self.folder / "found", good)

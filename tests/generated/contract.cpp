@@ -42,9 +42,10 @@ int stated_first_ok() {
     return std::stoi(text.substr(at + before.size()));
 }
 
-/// The axis has one row an instant for four unknowns, and follows when it has turned round.
+/// False where one instant has fewer rows than unknowns: these follow later, those of the axis when it has turned round.
 template <class Class>
-constexpr bool answers_at_once = !std::is_same_v<Class, generated::PositioningAxis>;
+constexpr bool answers_at_once = !std::is_same_v<Class, generated::PositioningAxis> && !std::is_same_v<Class, generated::MotorPump> &&
+                                 !std::is_same_v<Class, generated::PmsmMechanical> && !std::is_same_v<Class, generated::Servo>;
 
 }  // namespace
 

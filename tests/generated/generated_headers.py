@@ -28,8 +28,9 @@ def folders(float_folder):
 
 
 def of(model, folder):
-    """Compiler options that say which model a program of programs/ is about."""
-    return [f"-I{folder}", f'-DHEADER="{model}/{model}.hpp"', f"-DMODEL={class_name(model)}"]
+    """Compiler options that say which model a program of programs/ is about, and about what its inputs move by how much."""
+    middle, size = (0.0, 1.0) if model == "servo" else (2e-3, 1e-3)   # it has to turn, and to turn back; others may divide by an air gap
+    return [f"-I{folder}", f'-DHEADER="{model}/{model}.hpp"', f"-DMODEL={class_name(model)}", f"-DMIDDLE={middle}", f"-DSIZE={size}"]
 
 
 def in_parallel(jobs):

@@ -11,6 +11,7 @@
 #include "generator/generate.hpp"
 #include "lab/recording.hpp"
 #include "tests/generated/committed.hpp"
+#include "tests/plants/drive_train.hpp"
 #include "tests/plants/pendulum.hpp"
 #include "tests/plants/pmsm.hpp"
 #include "tests/plants/positioning_axis.hpp"
@@ -107,6 +108,30 @@ TEST_CASE("replay and the compiled estimator agree to the last bit on simulated 
     agree<generated::Pendulum>(recording(1e-3, {{"theta", "rad"}}, rows));
 
     rows.clear();
+    plants::DriveTrainRun drive = plants::drive_train_run(0.01);
+    for (int second = 0; second < 2; ++second) {   // long enough to move the window on
+        plants::add_drive_train_noise(drive, 7);
+        for (std::size_t k = 0; k < drive.u.size(); ++k) rows.push_back({drive.u[k], drive.omega[k]});
+    }
+    agree<generated::DriveTrain>(recording(0.01, {{"u", "V"}, {"omega", "rad/s"}}, rows));
+    agree<generated::DriveTrainZeros>(recording(0.01, {{"u", "V"}, {"omega", "rad/s"}}, rows));
+
+    rows.clear();
+    for (int k = 0; k < 2000; ++k) {   // any signals do: agreement is about bits
+        const Inputs<generated::MotorPump> in = exciting<generated::MotorPump>(k);
+        rows.emplace_back(in.begin(), in.end());
+    }
+    agree<generated::MotorPump>(recording(5e-6, {{"I_a", "A"}, {"omega", "rad/s"}, {"P_0", "Pa"}, {"V_a", "V"}, {"Q_0", "m^3/s"}}, rows));
+
+    rows.clear();
+    for (int k = 0; k < 2000; ++k) {
+        const Inputs<generated::PmsmMechanical> in = exciting<generated::PmsmMechanical>(k);
+        rows.emplace_back(in.begin(), in.end());
+    }
+    agree<generated::PmsmMechanical>(
+        recording(5e-5, {{"V_d", "V"}, {"V_q", "V"}, {"I_d", "A"}, {"I_q", "A"}, {"omega", "rad/s"}, {"tau_e", "N.m"}}, rows));
+
+    rows.clear();
     plants::Pmsm motor;
     motor.period = 1e-3;
     motor.current_noise = 0.03;
@@ -118,4 +143,6 @@ TEST_CASE("replay and the compiled estimator agree to the last bit on simulated 
 TEST_CASE("replay and the compiled estimator agree to the last bit on recordings of real machines") {
     agree_on<generated::PositioningAxis>("emps.csv");
     agree_on<generated::Pendulum>("single_pendulum.csv");
+    agree_on<generated::Servo>("servo_sin_time_square.csv");
+    agree_on<generated::Servo>("servo_sin_sin.csv");
 }

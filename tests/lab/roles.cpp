@@ -162,19 +162,19 @@ ode = "der(th) = w"
 }
 
 TEST_CASE("roles: quantities, differences and constants as they stand in an equation") {
-    CHECK(of("leading", geared(), 0) == Texts{"L"});
-    CHECK(of("leading", geared(), 2) == Texts{"J"});
+    CHECK(of("leading", geared(), 0) == Texts{"L [H]"});
+    CHECK(of("leading", geared(), 2) == Texts{"J [kg.m^2]"});
     CHECK(of("leading", geared(), 3) == Texts{});
-    CHECK(of("factor", geared(), 1) == Texts{"R"});
-    CHECK(of("difference", geared(), 2) == Texts{"(load-th)"});
+    CHECK(of("factor", geared(), 1) == Texts{"R [ohm]"});
+    CHECK(of("difference", geared(), 2) == Texts{"(load-th) [rad]"});
     CHECK(of("difference", geared(), 0) == Texts{});
-    CHECK(of("constant", geared(), 1) == Texts{"flux"});   // nobody is wrong about a number of poles
+    CHECK(of("constant", geared(), 1) == Texts{"flux [Wb]"});   // nobody is wrong about a number of poles
     CHECK(of("constant", geared(), 0) == Texts{});
-    CHECK(of("actuator", geared(), 0) == Texts{"vd"});
-    CHECK(of("drive", geared(), 2) == Texts{"iq"});
-    CHECK(of("sensor", geared(), 2) == Texts{"w"});
-    CHECK(of("pole_pairs", geared(), 0) == Texts{"pairs"});
-    CHECK(of("rotor_speed", geared(), 0) == Texts{"w"});
+    CHECK(of("actuator", geared(), 0) == Texts{"vd [V]"});
+    CHECK(of("drive", geared(), 2) == Texts{"iq [A]"});
+    CHECK(of("sensor", geared(), 2) == Texts{"w [rad/s]"});
+    CHECK(of("pole_pairs", geared(), 0) == Texts{"pairs [1]"});
+    CHECK(of("rotor_speed", geared(), 0) == Texts{"w [rad/s]"});
     CHECK(of("q_current", geared(), 1) == Texts{});        // seen from the d equation
 }
 

@@ -56,21 +56,36 @@ ode = "T*der(x) = u - x"
 }
 
 TEST_CASE("free run: dry friction stops a sliding mass and holds it until the force is larger") {
-    Scene scene(R"toml(name = "block"
+    // However its sgn() is written, and on a belt too: there the same happens relative to it.
+    const auto [friction, belt] = GENERATE(table<std::string, double>({{"- Fc*sgn(v)", 0.0},
+                                                                      {"+ Fc*sgn(-v)", 0.0},
+                                                                      {"- Fc*sgn(2*v)", 0.0},
+                                                                      {"- Fc*sgn(v/k - 0)", 0.0},
+                                                                      {"- 0.4*Fc*sgn(v) + 0.6*Fc*sgn(-3*v)", 0.0},
+                                                                      {"- Fc*sgn(v - 0.4)", 0.4},
+                                                                      {"- Fc*sgn(v - vb)", 0.4},
+                                                                      {"+ Fc*sgn(k*(vp - v))", 0.4},
+                                                                      {"- 0.4*Fc*sgn(v - vb) + 0.6*Fc*sgn(2*vb - 2*v)", 0.4}}));
+    INFO(friction);
+    Scene scene(fmt::format(R"toml(name = "block"
 [sampling]
 period = 1e-3
 [signals]
-F = { unit = "N", hold = "zoh" }
-x = { unit = "m", initial = 0 }
-v = { unit = "m/s", initial = 0.9 }
+F = {{ unit = "N", hold = "zoh" }}
+x = {{ unit = "m", initial = 0 }}
+v = {{ unit = "m/s", initial = {} }}
+[constants]
+k = {{ value = 2, unit = "1" }}
+vb = {{ value = 0.4, unit = "m/s" }}
 [parameters]
-m = { unit = "kg", initial = 2 }
-Fc = { unit = "N", initial = 3 }
+m = {{ unit = "kg", initial = 2 }}
+Fc = {{ unit = "N", initial = 3 }}
+vp = {{ unit = "m/s", initial = 0.4 }}
 [[equation]]
 ode = "der(x) = v"
 [[equation]]
-ode = "m*der(v) = F - Fc*sgn(v)"
-)toml");
+ode = "m*der(v) = F {}"
+)toml", belt + 0.9, friction));
     // No force: stops at m v0 / Fc = 0.6 s after m v0^2 / (2 Fc) = 0.27 m. From 1 s: 2.9 N, too small. From 1.5 s: -5 N.
     const FreeRun run = scene.run(2001, {{"F", [](double t) { return t < 0.9995 ? 0.0 : t < 1.4995 ? 2.9 : -5.0; }}});
     REQUIRE(run.samples == 2001);
@@ -80,8 +95,8 @@ ode = "m*der(v) = F - Fc*sgn(v)"
         const double t = 1e-3 * static_cast<double>(k);
         const double sliding = std::max(0.6 - t, 0.0);
         const double pushed = std::max(t - 1.5, 0.0);
-        const double expected_v = 1.5 * sliding - 1.0 * pushed;              // (F + Fc)/m = -1 m/s^2
-        const double expected_x = 0.27 - 0.75 * sliding * sliding - 0.5 * pushed * pushed;
+        const double expected_v = belt + 1.5 * sliding - 1.0 * pushed;              // (F + Fc)/m = -1 m/s^2
+        const double expected_x = belt * t + 0.27 - 0.75 * sliding * sliding - 0.5 * pushed * pushed;
         CHECK(v[k] == Approx(expected_v).margin(1e-7));
         CHECK(x[k] == Approx(expected_x).margin(1e-7));
     }
@@ -150,6 +165,25 @@ ode = "der(x) = a*x"
     // exp(10 t) passes 1e6 at t = 1.38 s; nothing is measured, so the scale of x is 1.
     CHECK(run.samples >= 138);
     CHECK(run.samples <= 140);
+}
+
+TEST_CASE("free run: a hidden pressure in Pa is no divergence, at rest or on its way, declared or not") {
+    const auto [declared, start] = GENERATE(table<std::string, double>({{", initial = 2e6", 2e6}, {", initial = 0", 0.0}, {"", 0.0}}));
+    INFO(declared);
+    Scene scene(fmt::format(R"toml(name = "accumulator"
+[sampling]
+period = 1e-2
+[signals]
+ps = {{ unit = "Pa", hold = "zoh" }}
+p = {{ unit = "Pa"{} }}
+[parameters]
+T = {{ unit = "s", initial = 0.1 }}
+[[equation]]
+ode = "T*der(p) = ps - p"
+)toml", declared));
+    const FreeRun run = scene.run(101, {{"ps", [](double) { return 2e6; }}});
+    REQUIRE(run.samples == 101);
+    for (std::size_t k = 0; k <= 100; ++k) CHECK(scene.of(run, "p")[k] == Approx(2e6 + (start - 2e6) * std::exp(-0.1 * static_cast<double>(k))).epsilon(1e-6));
 }
 
 TEST_CASE("free run: coupled highest derivatives are solved together") {

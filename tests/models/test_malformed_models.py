@@ -171,6 +171,16 @@ def noisy(text):
     return NOISY + "[estimator]\n" + text
 
 
+# Operating points of the coil; the last section is [estimator].
+POINTS = changed(estimator('functional = "average"\nsolve = "least_squares"\n'), 'i = { unit = "A" }', 'i = { unit = "A", steady = 0.1 }', "L*der(i) = gain*v - R*i", "v = R*i + L*der(i)",
+                 'gain = { value = 2, unit = "1" }', 'L = { value = 2, unit = "H" }', 'L = { unit = "H" }\n\n[[', '\n[[')
+
+
+def computed(formula):
+    """COIL with a computed signal beside another one."""
+    return coil('v = { unit = "V" }', 'v = { unit = "V" }\np = { unit = "V", formula = "v" }\nq2 = { unit = "V", formula = "' + formula + '" }')
+
+
 def equation(text):
     """COIL with more keys in its equation, the last section."""
     return COIL + text
@@ -235,7 +245,6 @@ KEYS = [
     ("misspelt key of feedback", feedback('signal = "v"\nlaw = "i"\n▸gain = 1\n'), "unknown key 'gain'"),
     ("key as near to one as to another", coil('R = { ', 'R = { ▸mix = 1, '), "unknown key 'mix'; keys here"),
     ("capital letter", coil('R = { unit', 'R = { ▸Unit'), "did you mean unit?"),
-    ("a section of a later version", COIL + "▸[discrete]\n", "not supported by this version"),
     ("no name", "▸" + coil('name = "m"', ""), "no name"),
     ("nothing", "▸▸▸", "no name"),
     ("comments alone", "▸▸▸# a model\n", "no equation"),
@@ -318,10 +327,36 @@ VALUES = [
     ("ode that is a number", coil('"L*der(i) = gain*v - R*i"', "▸3"), "not a text"),
     ("two equations of a name", COIL + 'name = "a"\n[[equation]]\nname = ▸"a"\node = "i = i"\n', "two equations are named 'a'"),
     ("unknown functional", estimator('functional = ▸"magic"\n'), "annihilator | discrete | derivative | average"),
-    ("functional of a later version", estimator('functional = ▸"average"\n'), "not supported by this version"),
+    ("average without a word on what is steady", estimator('functional = ▸"average"\nsolve = "least_squares"\n'), "nothing says when the machine is steady"),
+    ("average of the rows of one instant", estimator('functional = "average"\nstretches = "v"\nsolve = ▸"square"\n'), "pooled over operating points"),
+    ("average over three periods", changed(POINTS, "0.02", "▸0.003"), "at least four periods"),
+    ("average of a decimated signal", changed(POINTS, "[sampling]\n", "▸[sampling]\ndecimate = 2\n"), "averages already"),
+    ("average that annihilates", changed(POINTS, 'ode = "', 'kappa = 1\node = ▸"'), "asks for kappa"),
+    ("average of two rows", changed(POINTS, 'ode = "', 'rows = 2\node = ▸"'), "asks for rows"),
+    ("average of derivatives alone", changed(POINTS, '"v = R*i + L*der(i)"', '▸"L*der(i) = R/2*der(q)"', 'v = { unit = "V" }', 'v = { unit = "V" }\nq = { unit = "A" }', 'L = { value = 2, unit = "H" }', 'L = { value = 2, unit = "ohm" }'), "says nothing of it"),
+    ("average of a derivative's sign", changed(POINTS, '"v = R*i + L*der(i)"', '▸"v = R*i*sgn(der(i))"'), "no mean in a steady state"),
+    ("stretches that no signal numbers", POINTS + 'stretches = ▸"vv"\n', "did you mean v?"),
+    ("stretches of windows", estimator('stretches = ▸"v"\n'), 'stretches is for functional = "average"'),
+    ("stages of least squares", estimator('solve = "least_squares"\nstages = ▸["equation 1"]\n'), 'stages is for solve = "elimination"'),
+    ("a stage that is no equation", estimator('solve = "elimination"\nstages = [▸"equation 2"]\n'), "did you mean equation 1?"),
+    ("a stage twice", estimator('solve = "elimination"\nstages = ["equation 1", ▸"equation 1"]\n'), "is there twice"),
+    ("an equation in no stage", changed(PLAIN, 'ode = "der(x) = a*x + b*u"\n', 'name = "p"\node = "der(x) = a*x + b*u"\n[[equation]]\nname = "q"\node = "der(y) = a*x + b*u"\n[estimator]\nsolve = "elimination"\nstages = [▸"p"]\n'), "leaves out equation 'q'"),
+    ("elimination of what has no known side", PLAIN.replace('"der(x) = a*x + b*u"', '▸"a*der(x) = a^2*x + b*u"') + '[estimator]\nsolve = "elimination"\n', "elimination needs one that has none"),
+    ("elimination of three parameters", PLAIN.replace('"der(x) = a*x + b*u"', '▸"der(x) = a*b*x + b*d*u + a*d*y + a^2*x*u"').replace("b = {}", "b = {}\nd = {}") + '[estimator]\nsolve = "elimination"\n', "here are 3: a, b, d, because of the term (-a*b)*x"),
+    ("perturbation beside elimination", changed(PLAIN, 'ode = "', 'kappa = 1\nperturbation = ▸"shove"\node = "') + '[estimator]\nsolve = "elimination"\n', "not to be had with elimination"),
+    ("resultant of too high a degree", PLAIN.replace('"der(x) = a*x + b*u"', '▸"der(x) = a^5*b*x + b^5*a*u + a*b*y"') + '[estimator]\nsolve = "elimination"\n', "too high a degree"),
+    ("formula of an unknown name", computed("2*▸q"), "unknown name 'q'"),
+    ("formula with a derivative", computed("▸der(v)"), "der() in a computed signal"),
+    ("formula with a delay", computed("▸delay(v, 0.001)"), "delay() in a computed signal"),
+    ("formula with a parameter", computed("▸R*i"), "a parameter in a computed signal"),
+    ("formula of a computed signal", computed("2*▸p"), "is computed too"),
+    ("formula of another unit", computed("▸i"), "differ"),
+    ("a computed signal under the parabola filter", changed(coil('v = { unit = "V" }', 'v = { unit = "V" }\n▸q2 = { unit = "A", formula = "2*i" }'), "L*der(i) = gain*v - R*i", "L*der(i) = gain*v - R*i + L*0.001*sgn(der(q2))*der(i)"), "runs on measured signals"),
+    ("empty formula", coil('v = { unit = "V" }', 'v = { unit = "V" }\np = { unit = "V", formula = ▸"" }'), "an empty formula"),
+    ("formula beside a column", coil('v = { unit = "V" }', 'v = { unit = "V" }\np = { unit = "V", formula = "v", column = ▸"c" }'), "column beside formula"),
+    ("drift of zero", coil('v = { unit = "V" }', 'v = { unit = "V", steady = ▸0 }'), "not positive"),
     ("unknown solver", estimator('solve = ▸"cholesky"\n'), "square | robust | least_squares | elimination"),
     ("misspelt solver", estimator('solve = ▸"least_sqaures"\n'), "did you mean least_squares?"),
-    ("solver of a later version", estimator('solve = ▸"elimination"\n'), "not supported by this version"),
     ("form 3", estimator("form = ▸3\n"), "whole number from 1 to 2"),
     ("unknown engine", estimator('engine = ▸"gpu"\n'), "fir | moments"),
     ("unknown quadrature", estimator('quadrature = ▸"romberg"\n'), "exact | trapezoid | simpson"),
@@ -359,7 +394,7 @@ VALUES = [
     ("window with a rest of a decimated period", coil("period = 0.001", "period = 0.001\ndecimate = 3", "0.02", "▸0.02"), "not a whole number of decimated periods"),
     ("solve_window with a rest of a decimated period", changed(estimator('solve = "robust"\nsolve_window = ▸0.012\n'), "period = 0.001", "period = 0.001\ndecimate = 5"), "not a whole number of decimated periods"),
     ("noise that enters no row", changed(estimator("deviation_limit = 0.1\n"), "[estimator]", "▸[estimator]", "- R*i", "- R*sgn(w)*i", 'v = {', 'w = { unit = "A", noise = 1 }\nv = {'), "enters no row"),
-    ("noise that goes through the parabola filter", changed(noisy('uncertainty = true\n'), "[estimator]", "▸[estimator]", "- R*i", "- R*sin(der(i)*tau)*i", "[constants]", '[constants]\ntau = { value = 1, unit = "s/A" }'), "through the parabola filter"),
+    ("noise that goes through the parabola filter into means", changed(noisy('uncertainty = true\n'), "window = 0.02", "window = 0.02\ndecimate = 2", "[estimator]", "▸[estimator]", "- R*i", "- R*sin(der(i)*tau)*i", "[constants]", '[constants]\ntau = { value = 1, unit = "s/A" }'), "through the parabola filter"),
     ("a perturbation that nothing annihilates", equation('perturbation = ▸"force"\n'), "kappa = 0 annihilates none"),
     ("a perturbation with a signal's name", equation('kappa = 1\nperturbation = ▸"i"\n'), "of something else"),
     ("a perturbation whose first coefficient is a signal", changed(equation('kappa = 2\nperturbation = ▸"f"\n'), "v = {", 'f1 = { unit = "V" }\nv = {'), "of something else"),

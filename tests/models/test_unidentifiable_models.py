@@ -54,6 +54,9 @@ CASES = [
     ("one signal is known by two others", model(["a = {}", "b = {}", "c = {}"], 'ode = "y = u - 3*x"', 'ode = ▸"der(x) = a*u + b*y + c*x"'), [["a, b, c cannot be told apart"]]),
     ("one signal is known by its square", model(["a = {}", "b = {}"], 'ode = "y = sin(u)*u"', 'ode = ▸"der(x) = a*u*sin(u) + b*y"'), [["a, b cannot be told apart"]]),
     ("function of what cancels", model(["a = {}", "▸b = {}"], 'ode = "der(x) = a*u + b*sin(u - u)"'), [["'b'"]]),
+    ("inductance in a steady state", HEAD.replace("u = {}", "u = { steady = 1 }") + '[parameters]\nR = {}\n▸L = {}\n[[equation]]\node = "u = R*x + L*der(x)"\n[estimator]\nfunctional = "average"\nsolve = "elimination"\n',
+     [["parameter 'L'"]]),
+    ("a product under elimination", model(["a = {}", "b = {}"], 'ode = ▸"der(x) = a*b*u"') + '[estimator]\nsolve = "elimination"\n', [["a, b cannot be told apart"]]),
     ("parameter that the transfer equation does not name",
      HEAD + "[parameters]\n▸spare = {}\n[transfer]\nn = 1\nunknowns = [\"a0\", \"b0\"]\n", [["'spare'"]]),
 ]
@@ -101,7 +104,7 @@ class Unidentifiable(ModelCase):
                 self.assertEqual(self.run_algest("check", "m.toml")[0], 0)
 
     def test_bad_input_outweighs_it(self):
-        content, _ = without_marks(model(["a = {}", "spare = {}"], 'ode = "der(x) = sin(a)*u"'))
+        content, _ = without_marks(model(["a = {}", "spare = {}"], 'ode = "der(x) = a*nowhere"'))
         self.write(content)
         self.assertEqual(self.run_algest("check", "m.toml")[0], 2)
 

@@ -10,6 +10,7 @@
 #include "algest/moment_estimator.hpp"
 #include "generator/annihilator.hpp"
 #include "generator/kernel.hpp"
+#include "generator/moment_rounding.hpp"
 #include "generator/window_polynomial.hpp"
 
 namespace algest::test {
@@ -50,10 +51,12 @@ public:
         for (const kernel::Coefficients& k : kernels) count = std::max(count, k.size());
         for (std::size_t t = 0; t < kernels.size(); ++t) {
             kernel::WindowPolynomial p = kernel::window_polynomial(kernels[t], intervals, rule.hold, rule.quadrature, step);
+            const plan::Scalar scalar = sizeof(S) == 8 ? plan::Scalar::float64 : plan::Scalar::float32;
+            const exact::Rational gain = generator::rounding_gain(p, intervals, step, scalar, std::is_same_v<A, double> ? plan::Accumulators::float64 : plan::Accumulators::twofold);
             p.coefficients.resize(count, 0);
             for (const exact::Rational& c : p.coefficients) coefficients_.push_back(accumulator<A>(c));
-            const auto s = [](const exact::Rational& x) { return static_cast<S>(exact::nearest(x, sizeof(S) == 8 ? plan::Scalar::float64 : plan::Scalar::float32)); };
-            ends_.push_back({s(p.oldest), s(p.newest), s(kernel::integral(kernels[t], intervals, rule.hold, rule.quadrature)), static_cast<int>(kernels[t].size()) - 1});
+            const auto s = [](const exact::Rational& x) { return static_cast<S>(exact::nearest(x, scalar)); };
+            ends_.push_back({s(p.oldest), s(p.newest), s(kernel::integral(kernels[t], intervals, rule.hold, rule.quadrature)), s(gain), static_cast<int>(kernels[t].size()) - 1});
             const auto of = static_cast<std::uint16_t>(t);
             functionals_.push_back({of, 0, of, 1});
             terms_.push_back({of, 0, S(1)});   // one row each, and its known side stays 0
@@ -63,9 +66,11 @@ public:
         rows_ = {intervals + 1, 1, static_cast<int>(kernels.size()), 1, {nullptr, 0}, {functionals_.data(), static_cast<int>(functionals_.size())}, {terms_.data(), static_cast<int>(terms_.size())}};
         accumulators_.resize(static_cast<std::size_t>(moment_accumulators<A>(1, set_.degree, false)));
         references_.resize(static_cast<std::size_t>(moment_references<A>(1)));
+        sizes_.resize(references_.size());
         scratch_.resize(static_cast<std::size_t>(moment_scratch(1, set_.degree)));
         ring_.resize(samples_);
         matrix_.resize(2 * kernels.size());
+        entry_sizes_.resize(matrix_.size());
         restart();
     }
     MomentWindow(const MomentWindow&) = delete;
@@ -79,7 +84,7 @@ public:
     }
     /// Of a full window: value and a zero, kernel by kernel.
     const S* evaluate() {
-        evaluate_moment_rows(set_, rows_, memory(), &ring_[head_], &ring_[head_ == 0 ? samples_ - 1 : head_ - 1], scratch_.data(), matrix_.data());
+        evaluate_moment_rows(set_, rows_, memory(), &ring_[head_], &ring_[head_ == 0 ? samples_ - 1 : head_ - 1], scratch_.data(), RowSums<S>{matrix_.data(), entry_sizes_.data()});
         return matrix_.data();
     }
     /// Of a full window, by kernel.
@@ -93,7 +98,7 @@ public:
     S sample(std::size_t m) const { return ring_[(head_ + m) % samples_]; }
 
 private:
-    MomentMemory<S, A> memory() { return {accumulators_.data(), references_.data(), &progress_}; }
+    MomentMemory<S, A> memory() { return {accumulators_.data(), references_.data(), sizes_.data(), &progress_}; }
 
     std::size_t samples_;
     std::size_t head_ = 0;
@@ -105,7 +110,7 @@ private:
     std::vector<WindowEnds<S>> ends_;
     std::vector<Functional> functionals_;
     std::vector<Term<S>> terms_;
-    std::vector<S> references_, ring_, matrix_;
+    std::vector<S> references_, sizes_, ring_, matrix_, entry_sizes_;
 };
 
 /// Largest error of the moments against sums in long double, over the largest of those sums; both are kept by functional.

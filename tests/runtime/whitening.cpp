@@ -50,7 +50,8 @@ struct Data {
     }
     Eigen::Matrix<double, rows, unknowns + 1, Eigen::RowMajor> evaluated(const std::vector<double>& from) const {
         Eigen::Matrix<double, rows, unknowns + 1, Eigen::RowMajor> out;
-        evaluate_rows(set, from.data(), at, out.data());
+        std::array<double, row_entries(rows, unknowns)> scratch{};
+        evaluate_rows(set, from.data(), at, out.data(), scratch.data());
         return out;
     }
     /// The rings with raw sample k of a raw signal one standard deviation up.

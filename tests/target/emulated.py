@@ -3,10 +3,12 @@
 
 Instructions are instructions under emulation, not cycles: a Cortex-M takes 1 to 14 cycles for one, and waits for its memory besides.
 """
+import json
 import math
 import re
 import shutil
 import struct
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,6 +62,13 @@ def generate(model, engine, folder):
     run(ALGEST, "generate", model, "--engine", engine, "--scalar", "float", "-o", folder)
     [header] = [h for h in Path(folder).glob("*/*.hpp") if h.stem == h.parent.name]
     return Emitted(header)
+
+
+def engines(model):
+    """That the model can have."""
+    with tempfile.TemporaryDirectory() as folder:
+        [made] = json.loads(run(ALGEST, "generate", model, "--json", "-o", folder))["models"]
+    return sorted(cost["engine"] for cost in made["cost"])
 
 
 def exciting(inputs, count, size=SIZES["ordinary"]):

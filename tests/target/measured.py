@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from environment import SOURCE, run
-from emulated import CORES, Board, exciting, footprint, generate, host_bits, skip_without_tools
+from emulated import CORES, Board, engines, exciting, footprint, generate, host_bits, skip_without_tools
 
 TABLE = SOURCE / "docs/target-table.md"
 MEASURED = 200   # samples from the first full estimate on
@@ -36,7 +36,7 @@ class Row:
 def cases():
     """(name, model file, engine)"""
     for model in sorted(SOURCE.glob("models/*.toml")):
-        for engine in ("fir", "moments"):
+        for engine in engines(model):
             yield model.stem, model, engine
     yield FULL, FULL_MODEL, "moments"
 

@@ -9,8 +9,10 @@
 
 #include "algest/abi.hpp"
 #include "algest/arithmetic.hpp"
+#include "algest/elimination.hpp"
 #include "algest/gram_window.hpp"
 #include "algest/noise.hpp"
+#include "algest/normalised_rows.hpp"
 #include "algest/ratio_filter.hpp"
 #include "algest/rows.hpp"
 #include "algest/solve_gram.hpp"
@@ -26,7 +28,8 @@ namespace algest {
 enum class Solve : std::uint8_t {
     square,         ///< the rows of the newest instant alone, solved in estimate(); in the least-squares sense if there are more than unknowns
     robust,         ///< S(t) over the last solve_instants instants, summed in push()
-    least_squares   ///< every row since reset, absorbed in push()
+    least_squares,  ///< every row since reset, absorbed in push()
+    elimination     ///< likewise; the columns are polynomials of fewer parameters
 };
 
 /// An estimator as constant data, shared by all its instances.
@@ -35,7 +38,7 @@ struct Blueprint {
     RowSet<S> rows;
     Solve solve;
     int solve_instants;   ///< robust: instants in S(t)
-    S keep;               ///< least_squares: factor on the old triangle at each instant; 1 forgets nothing
+    S keep;               ///< least_squares and elimination: factor on the old triangle at each instant; 1 forgets nothing
     S condition_limit;    ///< above it an estimate is singular
     int kept;             ///< samples that the rings keep beyond one window; kept_samples() or more
     Noise<S> noise;       ///< of the sensors
@@ -43,6 +46,8 @@ struct Blueprint {
     View<S> whiten_at;    ///< unknowns at which rows are whitened until the first ok estimate; empty: they are not whitened
     LowPass<S> ratio;     ///< robust: of numerators and denominator
     RowSet<S> perturbation;   ///< rows whose residuals at the estimate are the perturbation's coefficients; none: rows == 0
+    bool normalise = false;   ///< square: rows are divided by their largest entry, and the condition is that before columns are scaled
+    Elimination<S> elimination = {};   ///< what the columns mean; otherwise empty
     bool rows_published = false;   ///< push evaluates the rows that estimate needs, and publishes them: the windows are moments, which nobody else can read
     int shortest = 0;              ///< samples of the shortest window that is solved, where windows grow; 0: they do not
 
@@ -70,12 +75,12 @@ constexpr int published_scalars(Solve solve, int unknowns) noexcept {
 }
 /// The same where push publishes rows: those of the newest instant (square), and of the perturbation.
 constexpr int published_row_scalars(Solve solve, int rows, int unknowns, int perturbation_rows) noexcept {
-    const int solved = solve == Solve::square ? rows * (unknowns + 1) : packed_size(unknowns + 1);
-    return published_slots * (solved + perturbation_rows * (unknowns + 1));
+    const int solved = solve == Solve::square ? row_entries(rows, unknowns) : packed_size(unknowns + 1);
+    return published_slots * (solved + row_entries(perturbation_rows, unknowns));
 }
-/// Scalars of scratch that push needs.
-constexpr int push_scratch(int rows, int unknowns) noexcept { return rows * (unknowns + 1); }
-/// Scalars of scratch that estimate needs without a deviation limit. rows: of an instant, or of the perturbation if they are more.
+/// Scalars of scratch that push needs. rows: of an instant; where push publishes rows, of the perturbation if they are more.
+constexpr int push_scratch(int rows, int unknowns) noexcept { return 2 * row_entries(rows, unknowns); }
+/// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     int most = solve_rows_scratch(unknowns);
     if (solve_gram_scratch(unknowns) > most) most = solve_gram_scratch(unknowns);
@@ -172,7 +177,7 @@ template <class S>
 inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     Progress& p = *memory.progress;
-    if (!all_finite(matrix, push_scratch(rows.rows, rows.unknowns))) {
+    if (!all_finite(matrix, row_entries(rows.rows, rows.unknowns))) {
         // Rows that overflow are left out: the sums would not recover from them.
     } else if (blueprint.solve == Solve::robust) {
         add_instant(memory.sums, p.gram, matrix, rows.rows, rows.unknowns, blueprint.solve_instants);
@@ -196,13 +201,13 @@ inline void reset(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     for (int u = 0; u < blueprint.whiten_at.size; ++u) memory.whitened_at[u] = blueprint.whiten_at[u];
     if (blueprint.ratio.used) restart_ratio(memory.ratio);
     if (blueprint.solve == Solve::robust) clear_gram(memory.sums, memory.progress->gram, blueprint.rows.unknowns);
-    if (blueprint.solve == Solve::least_squares) {
+    if (blueprint.solve == Solve::least_squares || blueprint.solve == Solve::elimination) {
         for (int i = 0; i < triangle_scalars(blueprint.rows.unknowns); ++i) memory.sums[i] = S(0);
     }
 }
 
 /// Takes one sample of every signal; nullptr says that the newest sample was refused: the windows and S(t) restart,
-/// the rows that least_squares absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
+/// the rows that least_squares and elimination absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
 /// their absorption. Never fails.
 template <class S>
 inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
@@ -220,7 +225,7 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
     p.head = p.head + 1 == length ? 0 : p.head + 1;
     if (p.filled < rows.samples) ++p.filled;
     if (blueprint.solve != Solve::square && p.filled == rows.samples) {
-        evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch);
+        evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch, scratch + row_entries(rows.rows, rows.unknowns));
         (void)detail::absorb(blueprint, memory, scratch);
     }
     detail::end_write(p);
@@ -266,17 +271,18 @@ inline bool overtaken(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
     return pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(most);
 }
 
-/// [P|Q] of the newest instant, whitened where that is asked for; false if it cannot be whitened.
+/// [P|Q] of the newest instant, whitened or normalised where that is asked for; false if it cannot be.
 template <class S>
 inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, const EstimateScratch<S>& at) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     if (blueprint.rows_published) {
         const S* const slot = memory.published + then.slot * slot_scalars(blueprint);
-        for (int i = 0; i < rows.rows * (rows.unknowns + 1); ++i) at.matrix[i] = slot[i];
+        for (int i = 0; i < row_entries(rows.rows, rows.unknowns); ++i) at.matrix[i] = slot[i];
         return true;
     }
     const WindowPosition window_at = newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head);
-    evaluate_rows(rows, memory.rings, window_at, at.matrix);
+    evaluate_rows(rows, memory.rings, window_at, at.matrix, at.work);
+    if (blueprint.normalise) return normalise_rows(at.matrix, rows.rows, rows.unknowns);
     if (blueprint.whiten_at.size == 0) return true;
     if (!residual_factor(rows, blueprint.noise, memory.rings, window_at, memory.whitened_at, at.work, at.factor)) return false;
     whiten(at.factor, at.matrix, rows.rows, rows.unknowns + 1);
@@ -332,7 +338,7 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
             const Node of = node(m, instants);
             const int start = oldest.start + of.start;
             S* const matrix = all_rows + m * entries;
-            evaluate_rows(rows, memory.rings, WindowPosition{length, start >= length ? start - length : start}, matrix);
+            evaluate_rows(rows, memory.rings, WindowPosition{length, start >= length ? start - length : start}, matrix, at.work);
             for (int u = 0; u < n; ++u) {
                 for (int r = 0; r < rows.rows; ++r) {
                     S sum = S(0);
@@ -350,12 +356,12 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
 template <class S>
 inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* out) noexcept {
     const RowSet<S>& rows = blueprint.perturbation;
-    const int entries = rows.rows * (rows.unknowns + 1);
+    const int entries = row_entries(rows.rows, rows.unknowns);
     if (blueprint.rows_published) {
         const S* const behind = memory.published + (then.slot + 1) * slot_scalars(blueprint) - entries;
         for (int i = 0; i < entries; ++i) scratch[i] = behind[i];
     } else {
-        evaluate_rows(rows, memory.rings, newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head), scratch);
+        evaluate_rows(rows, memory.rings, newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head), scratch, scratch + entries);
     }
     for (int r = 0; r < rows.rows; ++r) out[r] = residual(scratch + r * (rows.unknowns + 1), lumped, rows.unknowns);
 }
@@ -390,10 +396,13 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
         const bool usable = newest_rows(blueprint, memory, then, at);
         if (overtaken(blueprint, memory, then)) return {false, Status::filling, none};
         if (usable) solved = solve_rows(at.matrix, rows.rows, n, at.work, lumped);
+        if (blueprint.normalise && solved.regular) solved.condition = condition_before_scaling(at.matrix, n, at.work);
     } else {
         for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * slot_scalars(blueprint) + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
-        solved = blueprint.solve == Solve::robust ? solve_gram(at.sums, n, at.work, lumped) : solve_triangle(at.sums, n, at.work, lumped);
+        solved = blueprint.solve == Solve::robust          ? solve_gram(at.sums, n, at.work, lumped)
+                 : blueprint.solve == Solve::least_squares ? solve_triangle(at.sums, n, at.work, lumped)
+                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped);
     }
     bool good = solved.regular && solved.condition <= blueprint.condition_limit;
     if (blueprint.ratio.used) {   // what solve_gram leaves in its scratch: L and D, then the scales
@@ -413,7 +422,8 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
 
 }  // namespace detail
 
-/// Solves with the newest windows; writes `lumped` (unknowns entries, then the perturbation's) only where it is of use: with status ok.
+/// Solves with the newest windows; `lumped` (unknowns entries, then the perturbation's; with elimination the parameters instead) is of use with
+/// status ok alone.
 /// scratch: estimate_scratch; with a deviation limit uncertainty_scratch and packed_size(unknowns) more.
 /// Cost: square: all dot products and one solve; else one solve; a perturbation's dot products; whitened rows: residual_factor; a deviation
 /// limit: that of uncertainty. With a ratio filter call it once per push. Never fails, fixed loops.

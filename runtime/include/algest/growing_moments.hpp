@@ -3,6 +3,9 @@
 // place v and in h = 1/n, n the intervals of the window. The moments of a growing window stand in a frame of their own, which doubles
 // when it is full: coordinates are halved and moved, which loses no digits.
 #pragma once
+#include <cmath>
+#include <type_traits>
+
 #include "algest/moments.hpp"
 
 namespace algest {
@@ -53,14 +56,15 @@ inline void add_growing_sample(const MomentSet<S, double>& set, MomentMemory<S, 
         }
     }
     const S u = S(2 * newest - (size - 1)) / S(size);
-    detail::add_to_frame(set, u, S(1), sample, memory.references, scratch, moments);
+    detail::add_to_frame<false>(set, u, S(1), sample, memory.references, memory.sizes, scratch, moments);   // the sizes are those of frame 0
 }
 
 /// Evaluates all rows on the window since the start: as evaluate_moment_rows, with the factors of the full window. scratch: moment_scratch.
-/// Cost: signals degree (degree + 1)/2 + functionals (degree + 2)^2 products and sums.
+/// Roundings are counted as there: one of each x - c, and of the sums n/2 + 8, with coordinates of the frame up to 1 and a shift up to 1/2.
+/// Cost: signals degree (degree + 1)/2 + functionals (degree + 2) (degree + 3) products and sums.
 template <class S>
 inline void evaluate_growing_rows(const GrowingSet& growing, const MomentSet<S, double>& set, const RowSet<S>& rows, MomentMemory<S, double> memory, const S* newest_sample,
-                                  double* scratch, S* matrix) noexcept {
+                                  double* scratch, RowSums<S> to) noexcept {
     const int newest = static_cast<int>(memory.progress->position);
     const int count = set.degree + 1;
     const int size = detail::growing_frame(newest);
@@ -71,26 +75,39 @@ inline void evaluate_growing_rows(const GrowingSet& growing, const MomentSet<S, 
     for (int i = 0; i < rows.signals * count; ++i) scratch[i] = moments[i];
     for (int s = 0; s < rows.signals; ++s) detail::shift_moments(set.degree, S(size - 1 - newest) / S(size), scratch + s * count);
 
-    clear_rows(rows, matrix);
+    const double roundings = std::is_same<S, double>::value ? (9.0 + 0.5 * (newest + 1)) / 8.0 : 1.0 / 8.0;   // besides eight of the scalar
+
+    clear_rows(rows, to);
     for (const Functional& f : rows.functionals) {
         if (f.table == no_table) {
-            add_functional(rows, f, S(1), matrix);
+            add_functional(rows, f, S(1), S(1), to);
             continue;
         }
         const double* const of_signal = scratch + f.signal * count;
         const double* const polynomial = growing.polynomials.data + f.table * count * count;
         double power = h;
-        double sum = 0.0;
+        double reach = 1.0;
+        double value = 0.0;
+        double gain = 0.0;
         for (int j = 0; j < count; ++j) {
-            sum += detail::horner(polynomial + j * count, count, h) * power * of_signal[j];
+            const double coefficient = detail::horner(polynomial + j * count, count, h) * power;
+            value += coefficient * of_signal[j];
+            gain += std::abs(coefficient) * reach;
             power *= stretch;
+            reach *= 1.5;
         }
         const double c = static_cast<double>(memory.references[f.signal]);
-        sum += h * detail::horner(growing.newest.data + f.table * count, count, h) * (static_cast<double>(newest_sample[f.signal]) - c);
-        sum += c * static_cast<double>(set.ends[f.table].of_one);
-        for (int i = 0; i < growing.derivatives[f.table]; ++i) sum *= ratio;
-        add_functional(rows, f, static_cast<S>(sum), matrix);
+        const double of_reference = c * static_cast<double>(set.ends[f.table].of_one);
+        value += h * detail::horner(growing.newest.data + f.table * count, count, h) * (static_cast<double>(newest_sample[f.signal]) - c);
+        value += of_reference;
+        double size = std::abs(value) + std::abs(of_reference) + roundings * gain * static_cast<double>(memory.sizes[f.signal]);
+        for (int i = 0; i < growing.derivatives[f.table]; ++i) {
+            value *= ratio;
+            size *= ratio;
+        }
+        add_functional(rows, f, static_cast<S>(value), static_cast<S>(size), to);
     }
+    drop_rounding(rows, moment_rounding_part<S>(), to);
 }
 
 }  // namespace algest

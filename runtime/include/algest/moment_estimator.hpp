@@ -25,22 +25,22 @@ template <class S>
 inline S* hand_on(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noexcept {
     if (blueprint.solve != Solve::square) return absorb(blueprint, memory, matrix);
     S* const slot = next_slot(blueprint, memory);
-    const int entries = push_scratch(blueprint.rows.rows, blueprint.rows.unknowns);
+    const int entries = row_entries(blueprint.rows.rows, blueprint.rows.unknowns);
     for (int i = 0; i < entries; ++i) slot[i] = matrix[i];
     return slot + entries;
 }
 
 /// The rows of the newest window: a full one, or one that grows.
 template <class S, class A>
-inline void evaluate_newest(const MomentBlueprint<S, A>& blueprint, int filled, MomentMemory<S, A> moments, const S* oldest, const S* newest, A* scratch, S* matrix) noexcept {
+inline void evaluate_newest(const MomentBlueprint<S, A>& blueprint, int filled, MomentMemory<S, A> moments, const S* oldest, const S* newest, A* scratch, RowSums<S> to) noexcept {
     const RowSet<S>& rows = blueprint.common.rows;
     if constexpr (std::is_same<A, double>::value) {
         if (filled < rows.samples) {
-            evaluate_growing_rows(blueprint.growing, blueprint.moments, rows, moments, newest, scratch, matrix);
+            evaluate_growing_rows(blueprint.growing, blueprint.moments, rows, moments, newest, scratch, to);
             return;
         }
     }
-    evaluate_moment_rows(blueprint.moments, rows, moments, oldest, newest, scratch, matrix);
+    evaluate_moment_rows(blueprint.moments, rows, moments, oldest, newest, scratch, to);
 }
 
 }  // namespace detail
@@ -79,9 +79,9 @@ inline void push(const MomentBlueprint<S, A>& blueprint, Memory<S> memory, Momen
     if (p.filled < rows.samples) ++p.filled;
     if (p.filled >= common.needed()) {
         const S* const oldest = memory.rings + p.head * rows.signals;
-        detail::evaluate_newest(blueprint, p.filled, moments, oldest, sample, moment_scratch, scratch);
+        detail::evaluate_newest(blueprint, p.filled, moments, oldest, sample, moment_scratch, {scratch, scratch + row_entries(rows.rows, rows.unknowns)});
         S* const behind = detail::hand_on(common, memory, scratch);
-        if (common.perturbation.rows > 0) evaluate_moment_rows(blueprint.moments, common.perturbation, moments, oldest, sample, moment_scratch, behind);
+        if (common.perturbation.rows > 0) evaluate_moment_rows(blueprint.moments, common.perturbation, moments, oldest, sample, moment_scratch, {behind, scratch});
     }
     detail::end_write(p);
 }

@@ -8,7 +8,9 @@
 // starts again from nothing. Nothing is summed for longer than a window and a block. Each frame measures a signal from the sample that it
 // starts with, for offsets would drown it: F[x] = F[x - c] + c F[1].
 #pragma once
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "algest/rows.hpp"
 #include "algest/twofold.hpp"
@@ -41,8 +43,15 @@ struct WindowEnds {
     S oldest;
     S newest;
     S of_one;
+    S gain;       ///< of rounding: eight roundings of |value| + |c F[1]| + gain times the frame's sum of |x - c| bound that of a value
     int degree;   ///< of the polynomial
 };
+
+/// Eight roundings in line, as rounding_part counts them; those of the sums are in the gains.
+template <class S>
+constexpr S moment_rounding_part() noexcept {
+    return S(8) * (std::numeric_limits<S>::epsilon() / S(2));
+}
 
 /// The functionals of an estimator as polynomials, by table. A polynomial is in v = (2m - M) step, m = 0 the oldest sample of M + 1; `step` is a
 /// power of two with 2 M step <= 1, so that coordinates are exact.
@@ -61,7 +70,7 @@ struct MomentProgress {
     std::int32_t reserved;
 };
 
-/// Accumulators, and scalars of references and ring, of an instance; accumulators of scratch that push needs. A growing window has a frame
+/// Accumulators, and scalars of references (and as many sizes) and ring, of an instance; accumulators of scratch that push needs. A growing window has a frame
 /// of its own behind the others.
 template <class A>
 constexpr int moment_accumulators(int signals, int degree, bool growing) noexcept {
@@ -79,6 +88,7 @@ template <class S, class A>
 struct MomentMemory {
     A* accumulators;   ///< by frame, signal, power
     S* references;     ///< by frame, signal: what is subtracted from its samples
+    S* sizes;          ///< by frame, signal: sum of the absolute values of what was added, those that have left included
     MomentProgress* progress;
 };
 
@@ -91,16 +101,25 @@ inline void powers_of(S u, int degree, A* powers) noexcept {
     for (int j = 1; j <= degree; ++j) powers[j] = times(powers[j - 1], u);
 }
 
-/// Adds a sample at coordinate u of a frame; sign -1 takes it away.
-template <class S, class A>
-inline void add_to_frame(const MomentSet<S, A>& set, S u, S sign, const S* sample, const S* references, A* powers, A* accumulators) noexcept {
+/// moments[j] += powers[j] x, j = 0 .. top. Unrolled where a product is short; that of two floats hides the loop.
+template <class S>
+inline void add_products(const double* powers, int top, S x, double* moments) noexcept {
+#pragma GCC unroll 4
+    for (int j = 0; j <= top; ++j) add_product(moments[j], powers[j], x);
+}
+template <class S>
+inline void add_products(const Twofold<S>* powers, int top, S x, Twofold<S>* moments) noexcept {
+    for (int j = 0; j <= top; ++j) add_product(moments[j], powers[j], x);
+}
+
+/// Adds a sample at coordinate u of a frame, `sized` to its sizes too; sign -1 takes it away.
+template <bool sized, class S, class A>
+inline void add_to_frame(const MomentSet<S, A>& set, S u, S sign, const S* sample, const S* references, S* sizes, A* powers, A* accumulators) noexcept {
     powers_of(u, set.degree, powers);
     for (int s = 0; s < set.degrees.size; ++s) {
         const S x = sign * (sample[s] - references[s]);
-        A* const moments = accumulators + s * (set.degree + 1);
-        const int top = set.degrees[s];   // a byte, which the stores below could alias
-#pragma GCC unroll 4
-        for (int j = 0; j <= top; ++j) add_product(moments[j], powers[j], x);
+        if (sized) sizes[s] += std::abs(x);
+        add_products(powers, set.degrees[s], x, accumulators + s * (set.degree + 1));
     }
 }
 
@@ -144,23 +163,25 @@ inline void add_sample(const MomentSet<S, A>& set, int intervals, MomentMemory<S
     for (int f = 0; f < moment_frames<A>; ++f) {
         const int k = position - f * block + (position < f * block ? cycle : 0);
         S* const references = memory.references + f * signals;
+        S* const sizes = memory.sizes + f * signals;
         A* const accumulators = memory.accumulators + f * size;
         if (k == 0) {
             for (int s = 0; s < signals; ++s) references[s] = sample[s];
+            for (int s = 0; s < signals; ++s) sizes[s] = S(0);
             for (int i = 0; i < size; ++i) assign(accumulators[i], S(0));
         }
         if (k >= life) continue;
-        detail::add_to_frame(set, S(2 * k - (life - 1)) * set.step, S(1), sample, references, scratch, accumulators);
-        if (k > intervals) detail::add_to_frame(set, S(2 * (k - intervals - 1) - (life - 1)) * set.step, S(-1), leaving, references, scratch, accumulators);
+        detail::add_to_frame<true>(set, S(2 * k - (life - 1)) * set.step, S(1), sample, references, sizes, scratch, accumulators);
+        if (k > intervals) detail::add_to_frame<false>(set, S(2 * (k - intervals - 1) - (life - 1)) * set.step, S(-1), leaving, references, sizes, scratch, accumulators);
     }
 }
 
 /// Evaluates all rows on the full window: matrix[row * (unknowns + 1) + column], as evaluate_rows does from weights. oldest, newest: samples of
-/// every signal. scratch: moment_scratch. Cost: signals degree (degree + 1)/2 + functionals (degree + 4) products and sums. Never fails; a value that is not
-/// finite passes through.
+/// every signal. scratch: moment_scratch. An entry that is no larger than its own rounding is zero.
+/// Cost: signals degree (degree + 1)/2 + functionals (degree + 5) products and sums. Never fails; a value that is not finite passes through.
 template <class S, class A>
 inline void evaluate_moment_rows(const MomentSet<S, A>& set, const RowSet<S>& rows, MomentMemory<S, A> memory, const S* oldest, const S* newest, A* scratch,
-                                 S* matrix) noexcept {
+                                 RowSums<S> to) noexcept {
     const int intervals = rows.samples - 1;
     const int block = moment_block<A>(intervals);
     const int since = static_cast<int>(memory.progress->position) - intervals;   // the start of the frame that is served
@@ -170,6 +191,7 @@ inline void evaluate_moment_rows(const MomentSet<S, A>& set, const RowSet<S>& ro
     for (; offset >= block; offset -= block) ++frame;   // a few subtractions; a division takes longer
     const int count = set.degree + 1;
     const S* const references = memory.references + frame * rows.signals;
+    const S* const sizes = memory.sizes + frame * rows.signals;
     const A* const served = memory.accumulators + frame * rows.signals * count;
     const S shift = S(block - 1 - 2 * offset) * set.step;
     for (int s = 0; s < rows.signals; ++s) {
@@ -177,10 +199,10 @@ inline void evaluate_moment_rows(const MomentSet<S, A>& set, const RowSet<S>& ro
         detail::shift_moments<S>(set.degrees[s], shift, scratch + s * count);
     }
 
-    clear_rows(rows, matrix);
+    clear_rows(rows, to);
     for (const Functional& f : rows.functionals) {
         if (f.table == no_table) {
-            add_functional(rows, f, S(1), matrix);
+            add_functional(rows, f, S(1), S(1), to);
             continue;
         }
         const A* const moments = scratch + f.signal * count;
@@ -191,8 +213,11 @@ inline void evaluate_moment_rows(const MomentSet<S, A>& set, const RowSet<S>& ro
         for (int j = 0; j <= ends.degree; ++j) add_product(sum, coefficients[j], moments[j]);
         const S c = references[f.signal];
         const S at_ends = ends.oldest * (oldest[f.signal] - c) + ends.newest * (newest[f.signal] - c);
-        add_functional(rows, f, (rounded<S>(sum) + at_ends) + c * ends.of_one, matrix);
+        const S of_reference = c * ends.of_one;
+        const S value = (rounded<S>(sum) + at_ends) + of_reference;
+        add_functional(rows, f, value, (std::abs(value) + std::abs(of_reference)) + ends.gain * sizes[f.signal], to);
     }
+    drop_rounding(rows, moment_rounding_part<S>(), to);
 }
 
 }  // namespace algest

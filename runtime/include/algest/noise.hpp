@@ -16,7 +16,7 @@ struct NoiseChannel {
     std::uint16_t input;     ///< which noisy raw signal
     std::uint16_t signal;    ///< window signal
     std::uint16_t partial;   ///< ring of the partial derivative; no_partial: constant
-    std::uint16_t lag;       ///< 0; 1 in a model one sample late; more where the signal is delayed
+    std::uint16_t lag;       ///< 0; 1 in a model one sample late; more where the signal is delayed or filtered
     S factor;
 };
 constexpr std::uint16_t no_partial = 0xFFFF;

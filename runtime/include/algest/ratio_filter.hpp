@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT-0
 // Numerator and denominator of each unknown through one and the same second-order low-pass (Delpoux, Floquet, equation 43, with the
 // 2 zeta omega_n s that its print lacks): theta_l = N_l / D with D = det S(t) and N_l = theta_l D, by Cramer's rule. An instant counts with
-// its determinant, so that one at which the rows say little moves the quotient little.
+// its determinant, so that one at which the rows say little moves the quotient little; but with no more than most_weight of the filtered
+// denominator, so that one bad sample does not outweigh all that follows.
 #pragma once
+#include <limits>
+
+#include "algest/arithmetic.hpp"
 
 namespace algest {
 
@@ -16,8 +20,20 @@ struct LowPass {
     S now[2];
 };
 
-/// Scalars of state: started or not, the scales that the determinant is divided by, and (y, y'/omega_n, u) of every numerator and of the
-/// denominator.
+/// Most that one instant counts, in filtered denominators. The denominator can still rise by the factor e in half a 1/omega_n.
+template <class S>
+constexpr S most_weight() noexcept {
+    return S(10);
+}
+/// A determinant that changes by more than this factor, or its inverse, from one instant to the next is another experiment: the filter
+/// starts anew. S(t) takes many instants to change when a signal does; an outlier, and its end, change it at once.
+template <class S>
+constexpr S most_growth() noexcept {
+    return S(1048576);
+}
+
+/// Scalars of state: started or not, the scales of the newest instant, in whose determinant the state counts, and (y, y'/omega_n, u) of
+/// every numerator and of the denominator.
 constexpr int ratio_scalars(bool used, int unknowns) noexcept { return used ? 1 + unknowns + 3 * (unknowns + 1) : 1; }
 
 /// Forgets what went through.
@@ -41,29 +57,43 @@ inline S advance(const LowPass<S>& filter, S* x, S u, bool first) noexcept {
     return x[0];
 }
 
+/// Counts the state in the scales of a new instant; false where the filter has to start anew: it has not begun, its denominator has faded or
+/// swung below 0, or the determinant has leapt.
+template <class S>
+inline bool follow(S* state, const S* scales, int unknowns) noexcept {
+    S* const reference = state + 1;
+    S* const x = reference + unknowns;
+    S growth = S(1);
+    for (int i = 0; i < unknowns; ++i) {
+        const S ratio = scales[i] / reference[i];
+        growth *= ratio * ratio;
+        reference[i] = scales[i];
+    }
+    if (state[0] == S(0) || !within(growth, S(1) / most_growth<S>(), most_growth<S>())) return false;
+    for (int i = 0; i < 3 * (unknowns + 1); ++i) x[i] /= growth;
+    return x[3 * unknowns] > std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon() && all_finite(x, 3 * (unknowns + 1));
+}
+
 /// Replaces theta by the quotient of filtered numerators and denominator. pivots, scales: unknowns each; det S is the product of
-/// pivot scale^2. False, and theta as it was, where the filtered denominator is not positive. Cost: 10 (unknowns+1) operations.
+/// pivot scale^2. False, and theta as it was, where the filtered denominator is not positive or a quotient not finite. Cost: 15 (unknowns+1)
+/// operations.
 template <class S>
 inline bool filter_ratio(const LowPass<S>& filter, S* state, const S* pivots, int pivot_step, const S* scales, int unknowns, S* theta) noexcept {
-    const bool first = state[0] == S(0);
-    S* reference = state + 1;
-    S* x = reference + unknowns;
-    if (first) {
-        for (int i = 0; i < unknowns; ++i) reference[i] = scales[i];
-        state[0] = S(1);
+    S* const x = state + 1 + unknowns;
+    S* const of_denominator = x + 3 * unknowns;
+    const bool first = !follow(state, scales, unknowns);
+    state[0] = S(1);
+    S weight = S(1);   // the determinant in this instant's scales
+    for (int i = 0; i < unknowns; ++i) weight *= pivots[i * pivot_step];
+    if (!first) weight = smaller(weight, most_weight<S>() * of_denominator[0]);
+    const S denominator = advance(filter, of_denominator, weight, first);
+    for (int i = 0; i < unknowns; ++i) (void)advance(filter, x + 3 * i, theta[i] * weight, first);
+    if (!(denominator > S(0)) || !all_finite(x, 3 * (unknowns + 1))) {
+        restart_ratio(state);
+        return false;
     }
-    S determinant = S(1);   // over that of the first instant's scales: neither under- nor overflows where units are small or large
-    for (int i = 0; i < unknowns; ++i) {
-        const S scale = scales[i] / reference[i];
-        determinant *= pivots[i * pivot_step] * scale * scale;
-    }
-    const S denominator = advance(filter, x + 3 * unknowns, determinant, first);
-    const bool positive = denominator > S(0);
-    for (int i = 0; i < unknowns; ++i) {
-        const S numerator = advance(filter, x + 3 * i, theta[i] * determinant, first);
-        if (positive) theta[i] = numerator / denominator;
-    }
-    return positive;
+    for (int i = 0; i < unknowns; ++i) theta[i] = x[3 * i] / denominator;
+    return true;
 }
 
 /// An instant whose rows are singular: determinant and numerators are 0.

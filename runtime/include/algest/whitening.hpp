@@ -21,7 +21,7 @@ inline bool residual_factor(const RowSet<S>& set, const Noise<S>& noise, const S
     S* matrix = scratch;
     S* change = scratch + n * (set.unknowns + 1);
     for (int i = 0; i < n * n; ++i) lower[i] = S(0);
-    for (int k = -1; k < set.samples; ++k) {
+    for (int k = -largest_lag(noise); k < set.samples; ++k) {
         for (int s = 0; s < noise.inputs; ++s) {
             noise_in_rows(set, noise, rings, at, s, k, matrix);
             for (int r = 0; r < n; ++r) change[r] = residual(matrix + r * (set.unknowns + 1), theta, set.unknowns);

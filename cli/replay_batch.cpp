@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// algest replay --batch: all rows of a recording at once, and what the recording cannot tell.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/commands.hpp"
+#include "cli/messages.hpp"
+#include "generator/generate.hpp"
+#include "lab/batch.hpp"
+
+namespace algest::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number_or_null(std::optional<double> value) { return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr); }
+
+ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, const lab::Batch& batch) {
+    ordered_json parameters = ordered_json::array();
+    for (std::size_t p = 0; p < batch.parameters.size(); ++p) {
+        parameters.push_back({{"name", plan.parameters[p].name},
+                              {"unit", plan.parameters[p].unit},
+                              {"value", number_or_null(batch.parameters[p].value)},
+                              {"sd", number_or_null(batch.parameters[p].deviation)}});
+    }
+    ordered_json confusions = ordered_json::array();
+    for (const lab::Confusion& c : batch.confusions) confusions.push_back({{"unknowns", c.unknowns}, {"hardly", c.hardly}, {"text", c.text}});
+    return {{"model", options.model},
+            {"recording", options.recording},
+            {"samples", batch.samples},
+            {"uniform", batch.uniform},
+            {"instants", batch.instants},
+            {"parameters", std::move(parameters)},
+            {"condition", number_or_null(batch.condition)},
+            {"correlated_instants", batch.memory},
+            {"confused", std::move(confusions)}};
+}
+
+std::string batch_text(const plan::Plan& plan, const lab::Batch& batch) {
+    std::size_t width = std::string("parameter").size();
+    for (const plan::Parameter& p : plan.parameters) width = std::max(width, p.name.size());
+    const auto text = [](std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : "-"; };
+    std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  unit\n", "parameter", width, "value", "sd");
+    for (std::size_t p = 0; p < batch.parameters.size(); ++p) {
+        out += fmt::format("{:<{}}  {:>12}  {:>12}  {}\n", plan.parameters[p].name, width, text(batch.parameters[p].value), text(batch.parameters[p].deviation), plan.parameters[p].unit);
+    }
+    out += fmt::format("\n{} samples, rows of {} instants; condition {:.6g}; residuals correlated over {:.3g} instants\n", batch.samples, batch.instants, batch.condition, batch.memory);
+    for (const lab::Confusion& c : batch.confusions) out += (c.hardly ? "hardly identifiable from this recording: " : "not identifiable from this recording: ") + c.text + "\n";
+    return out;
+}
+
+}  // namespace
+
+int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch) {
+    Diagnostics diagnostics;
+    const auto plan = generator::plan_from_model(options.model, {}, diagnostics);
+    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv, lab::TimeBase::increasing);
+    if (!plan || !recording) return fail(diagnostics, options.json);
+    const auto batch = lab::batch(*plan, *recording, stretch, diagnostics);
+    if (!batch) return fail(diagnostics, options.json);
+    for (const std::string& text : plan->notes) diagnostics.note(options.model, text);
+    print_diagnostics(diagnostics);
+    if (options.json) print_json(batch_json(options, *plan, *batch));
+    else print(batch_text(*plan, *batch));
+    return batch->determined() ? exit_done : exit_no;
+}
+
+}  // namespace algest::cli
