@@ -136,5 +136,5 @@ TEST_CASE("the host estimator and the generated class agree to the last bit") {
         }
     }
     CHECK(models >= 6);
-    CHECK(on_moments == 6);   // dc_motor, magnetic_bearing, pendulum, pmsm_electrical, positioning_axis, rl_circuit
+    CHECK(on_moments == 7);   // dc_motor, magnetic_bearing, pendulum, pmsm_electrical, pmsm_inertia, positioning_axis, rl_circuit
 }
