@@ -225,10 +225,12 @@ int discover(const DiscoverOptions& options) {
     const bool amended = found->model_text != *text;
     const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
     const lab::ReportFiles named{options.model, options.recordings, options.directory, amended ? files.model : "", amended ? files.patch : "", patch};
+    const auto with_effects = model::read_from_text(found->model_text, options.model, false, diagnostics);
+    if (!with_effects) return fail(diagnostics, options.json);
     std::vector<lab::NewFile> written = {{files.report, lab::report_html(*found, *model, recordings[0], named, lab::gnuplot, diagnostics)}};
     for (std::size_t k = 0; k < recordings.size(); ++k) {
         written.push_back({files.before[k], lab::run_csv(*model, recordings[k], found->recordings[k].before)});
-        written.push_back({files.after[k], lab::run_csv(*model, recordings[k], found->recordings[k].after)});
+        written.push_back({files.after[k], lab::run_csv(*with_effects, recordings[k], found->recordings[k].after)});
     }
     const bool applied = options.apply && found->verdict == lab::Verdict::named;
     if (amended) written.insert(written.end(), {{files.patch, patch}, {files.model, found->model_text}});
