@@ -216,7 +216,8 @@ std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const 
     }
     double total = 0;
     for (const Where& w : out) total += w.share;
-    for (Where& w : out) w.share = total > 0 ? w.share / total : 0;
+    const bool off = total > 0 && nominal.score.gap() > at_the_floor;   // a long run that stays within the noise knows better than rows with a switch in them
+    for (Where& w : out) w.share = off ? w.share / total : 0;
     return out;
 }
 

@@ -12,6 +12,7 @@ using algest::test::Workplace;
 namespace {
 
 lab::Where where(const Workplace& w) {
+    w.bench->fit_and_score(*w.nominal, {Workplace::a, Workplace::b}, w.nominal->bench.initial);
     const auto before = w.bench->run(*w.nominal, 1e-6, 0);
     const auto found = lab::locate(*w.bench, *w.nominal, lab::residuals(*w.bench, *w.nominal, nullptr), before);
     REQUIRE(found.size() == 1);
