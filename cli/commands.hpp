@@ -13,10 +13,13 @@ namespace algest::cli {
 struct CheckOptions {
     std::vector<std::string> models;
     bool strict = false;
+    bool identifiability = false;      ///< the structural verdict of every parameter instead of an estimator's soundness
+    std::vector<std::string> hidden;   ///< signals that nobody measures
     bool json = false;
 };
 /// Are the models sound and identifiable? 0: all; 1: one is not identifiable; 2: one is not sound.
-/// JSON: {"models": [{"model", "ok", "warnings"}]}, after an error with "error": [...] in front.
+/// JSON: {"models": [{"model", "ok", "warnings"}]}, after an error with "error": [...] in front; with `identifiability` each sound model has
+/// "identifiability": what cli/identifiability.hpp says.
 int check(const CheckOptions& options);
 
 struct DeriveOptions {

@@ -21,11 +21,14 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
     CLI::App* command = app.add_subcommand("check", "Are the models sound and identifiable?");
     command->add_option("MODEL", options.models, "model files")->required();
     command->add_flag("--strict", options.strict, "a quantity without unit is an error");
+    CLI::Option* const structural = command->add_flag("--identifiability", options.identifiability, "which parameters perfect measurements determine: globally, locally or not, and then which combination");
+    command->add_option("--hidden", options.hidden, "signals that nobody measures; with --identifiability")->type_name("NAME,...")->delimiter(',')->allow_extra_args(false)->needs(structural);
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "Exit code: 0 all are, 1 one is not identifiable, 2 one is not sound.\n\n"
         "Examples:\n"
         "  algest check models/rl_circuit.toml\n"
+        "  algest check models/motor_pump.toml --identifiability --hidden P_0\n"
         "  algest check models/*.toml --strict");
     return command;
 }
