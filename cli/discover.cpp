@@ -146,7 +146,8 @@ std::string discovery_text(const lab::Discovery& d, const std::string& report_fi
         out += fmt::format("{:<4} {:<22} {:<28} {:>12.3g} {:>14.4g} {:>12.3g}{}\n", e.step, e.effect, e.equation, e.strength, e.validation, e.improvement, e.chosen ? (d.effects.empty() ? "  likeliest" : "  chosen") : e.rival ? "  rival" : "");
     }
     out += "\nwhere the model was off (share of the gap)\n";
-    for (const auto& w : d.where) out += fmt::format("  {:5.1f} %  {}, {:.4g} s to {:.4g} s, {}\n", 100 * w.share, w.equation, w.from_s, w.to_s, w.region);
+    if (std::none_of(d.where.begin(), d.where.end(), [](const auto& w) { return w.share > 0; })) out += "  nowhere beyond the noise\n";
+    else for (const auto& w : d.where) out += fmt::format("  {:5.1f} %  {}, {:.4g} s to {:.4g} s, {}\n", 100 * w.share, w.equation, w.from_s, w.to_s, w.region);
     for (const auto& r : d.recordings) {
         if (d.recordings.size() > 1) out += fmt::format("\n{}: gain {:.3g} [1]", r.file, r.gain);
         out += fmt::format("\n{:<12} {:>12} {:>12} {:>12}\n", "signal", "before [1]", "after [1]", "floor [1]");
@@ -225,10 +226,12 @@ int discover(const DiscoverOptions& options) {
     const bool amended = found->model_text != *text;
     const std::string patch = amended ? generator::unified_diff(options.model, *text, options.model, found->model_text) : "";
     const lab::ReportFiles named{options.model, options.recordings, options.directory, amended ? files.model : "", amended ? files.patch : "", patch};
+    const auto with_effects = model::read_from_text(found->model_text, options.model, false, diagnostics);
+    if (!with_effects) return fail(diagnostics, options.json);
     std::vector<lab::NewFile> written = {{files.report, lab::report_html(*found, *model, recordings[0], named, lab::gnuplot, diagnostics)}};
     for (std::size_t k = 0; k < recordings.size(); ++k) {
         written.push_back({files.before[k], lab::run_csv(*model, recordings[k], found->recordings[k].before)});
-        written.push_back({files.after[k], lab::run_csv(*model, recordings[k], found->recordings[k].after)});
+        written.push_back({files.after[k], lab::run_csv(*with_effects, recordings[k], found->recordings[k].after)});
     }
     const bool applied = options.apply && found->verdict == lab::Verdict::named;
     if (amended) written.insert(written.end(), {{files.patch, patch}, {files.model, found->model_text}});

@@ -63,7 +63,7 @@ public:
             Candidate best{binding, 0, 0, 0, {}, {}};
             const std::vector<double> scans = effect.scans.empty() ? std::vector<double>{0.0} : effect.scans[0].spectrum ? lines(binding) : scan_values(effect.scans[0], counted_in(effect.scans[0], binding));
             // Rows do not see a state, and what equations share they see one by one; a scan's value they know better than a run that has gone astray.
-            const bool by_rows = effect.rewrite == Rewrite::add_term || (!effect.scans.empty() && effect.states.empty());
+            const bool by_rows = effect.rewrite == Rewrite::add_term || (!effect.scans.empty() && effect.states.empty()) || (bench_.yardstick() == Yardstick::rows && effect.states.empty());
             for (const double scan : by_rows ? scans : std::vector<double>()) {
                 Candidate c = weigh(binding, scan);
                 if (scans.size() > 1) c.strength /= price_of_a_scan;
@@ -90,11 +90,25 @@ private:
         return std::any_of(binding.equations.begin(), binding.equations.end(), [&](std::size_t e) { return e + added >= base_.whole.equations.size(); });
     }
 
-    double counted_in(const EffectScan& scan, const Binding& binding) const {
+    double counted_in(const EffectScan& scan, const Binding& binding) {
         if (scan.of.empty()) return 1;
         if (scan.of == "period") return base_.bench.drive.period;
         if (scan.of == "duration") return static_cast<double>(bench_.parts().train.size()) * base_.bench.drive.period;
-        return largest_size(binding.roles[0].at(scan.of), base_.model, base_.bench);
+        return largest_size(binding.roles[0].at(scan.of), base_.model, seen());
+    }
+
+    /// The first recording, hidden states as the base's run has them: a vessel that nobody measures runs over too.
+    const Bench& seen() {
+        if (seen_) return *seen_;
+        seen_ = base_.bench;
+        const bool hides = std::any_of(seen_->system.moving.begin(), seen_->system.moving.end(), [&](int s) { return seen_->measured[static_cast<std::size_t>(s)].empty(); });
+        if (!hides || bench_.yardstick() != Yardstick::free_run) return *seen_;
+        const auto run = prediction(base_.bench, base_.fit.parameters, base_.fit.initial, bench_.parts().fitted);
+        for (const int s : seen_->system.moving) {
+            std::vector<double>& m = seen_->measured[static_cast<std::size_t>(s)];
+            if (m.empty()) m = run[static_cast<std::size_t>(s)];
+        }
+        return *seen_;
     }
 
     Candidate weigh(const Binding& binding, double scan) {
@@ -217,6 +231,7 @@ private:
     const Variant& base_;
     std::vector<Bench> recorded_;        ///< of the base, with time, by recording
     std::vector<BenchRows> with_time_;
+    std::optional<Bench> seen_;
     std::vector<bool> measured_;         ///< by signal, in every recording
     std::map<std::pair<std::string, int>, std::optional<Before>> before_;
 };

@@ -101,6 +101,11 @@ bool are_rivals(const Effect& a, const Effect& b) {
     return names(a, b) || names(b, a);
 }
 
+/// True when the file of an effect lets another one be named in its place where both explain alike.
+bool yields(const Effect& a, const Effect& to) {
+    return std::any_of(a.rivals.begin(), a.rivals.end(), [&](const Rival& r) { return r.first && r.name == to.name; });
+}
+
 /// With every scanned frequency placed anew beside the other effects: it was found before they were there.
 Variant sharpened(Workbench& bench, Variant best, const Variant& nominal, const std::vector<Effect>& effects) {
     const Rows rows = bench.parts().fitted;
@@ -213,7 +218,10 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         const auto freedom = [&](const Variant& v) { return std::pair(held_back(v), added_parameters(v)); };
         const Variant& nearest = fitted[order[0]];
         for (std::size_t k = 1; k < order.size(); ++k) {
-            if (freedom(fitted[order[k]]) < freedom(fitted[order[0]]) && indistinguishable(nearest, fitted[order[k]])) std::swap(order[0], order[k]);
+            const Variant& first = fitted[order[0]];
+            const Variant& other = fitted[order[k]];
+            const bool plainer = freedom(other) < freedom(first) || (freedom(other) == freedom(first) && yields(effect_of(first), effect_of(other)));
+            if (plainer && indistinguishable(nearest, other)) std::swap(order[0], order[k]);
         }
         const Variant& top = fitted[order[0]];
         std::vector<Base> next;
@@ -233,7 +241,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         out.as_well.clear();
         for (const std::size_t k : order) {
             if (k == order[0] || !indistinguishable(top, fitted[k])) continue;
-            if (held_back(fitted[k]) > held_back(top)) {
+            if (held_back(fitted[k]) > held_back(top) || yields(effect_of(fitted[k]), effect_of(top))) {
                 if (are_rivals(effect_of(top), effect_of(fitted[k]))) out.as_well.push_back(effect_of(fitted[k]).name);
             } else if (freedom(fitted[k]) <= freedom(top)) {
                 out.rivals.push_back(fitted[k]);
