@@ -46,17 +46,25 @@ int generate(const GenerateOptions& options);
 
 struct ReplayOptions {
     std::string model;
-    std::string recording;
+    std::vector<std::string> recordings;   ///< one at least
     std::string output;          ///< CSV of every sample; empty: none
+    std::string report;          ///< HTML page; empty: none
+    std::vector<std::string> command;   ///< as typed, without the program's name
     std::string scalar = "double";  ///< double, float: as the estimator on the target
     std::optional<double> from;  ///< s
     std::optional<double> to;
     bool batch = false;          ///< all rows at once
+    int jobs = 0;                ///< of several recordings at once; 0: as many as there are processors
     lab::CsvStyle csv;
     bool json = false;
 };
 /// Runs the estimator over the recording and prints the parameters.
 int replay(const ReplayOptions& options);
+/// The scalar in which the estimator computes.
+plan::Scalar scalar_of(const ReplayOptions& options);
+/// The same over several recordings, a line each; those without an estimate and those that fail come last. 2: one failed. JSON: {"model",
+/// "recordings": [one object each, as of one recording, or {"recording", "error": [...]}]}, in the same order.
+int replay_several(const ReplayOptions& options, const lab::Stretch& stretch);
 /// The same with all rows at once, where rows hold at single instants. 1: the recording does not determine all parameters. JSON: {"model",
 /// "recording", "samples", "uniform", "instants", "parameters": [{"name", "unit", "value", "sd"}], "condition", "correlated_instants",
 /// "confused": [{"unknowns", "hardly", "text"}]}.
@@ -79,6 +87,8 @@ struct SimulateOptions {
     std::string model;
     std::string recording;
     std::string output;             ///< CSV of every simulated signal; empty: none
+    std::string report;             ///< HTML page; empty: none
+    std::vector<std::string> command;   ///< as typed, without the program's name
     std::vector<std::string> set;   ///< NAME=VALUE in place of a parameter's initial value
     lab::CsvStyle csv;
     bool json = false;

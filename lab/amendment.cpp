@@ -119,7 +119,7 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
     for (const EffectParameter& p : effect.parameters) {
         const std::string name = names.fresh(p.name);
         texts.rename_everywhere(p.name, name);
-        NewName added{name, filled(p.unit, units), 0.0, p.min, false};
+        NewName added{name, filled(p.unit, units), 0.0, binding.in_output ? std::nullopt : p.min, false};
         added.neutral = filled(p.neutral, binding.roles[0]);
         out.names.push_back(std::move(added));
     }

@@ -61,6 +61,7 @@ struct EffectState {
 struct Rival {
     std::string name;
     std::string experiment;   ///< that tells the two apart
+    bool first = false;       ///< it is the plainer account: it is named where both explain alike
 };
 
 struct Effect {

@@ -298,8 +298,8 @@ private:
     }
 
     void read_rival(const toml::table& t) {
-        file_.known_keys(t, {"name", "experiment"});
-        Rival r{needed(t, model::position(t), "name", "viscous_friction"), prose(t, model::position(t), "experiment", "run at several speeds")};
+        file_.known_keys(t, {"name", "experiment", "first"});
+        Rival r{needed(t, model::position(t), "name", "viscous_friction"), prose(t, model::position(t), "experiment", "run at several speeds"), file_.boolean(t, "first").value_or(false)};
         if (!r.name.empty()) {
             const Position at = model::position(*t.get("name"));
             check_effect_name(r.name, at);

@@ -9,6 +9,7 @@
 #include "generator/units.hpp"
 #include "lab/bound_edits.hpp"
 #include "lab/effect_file.hpp"
+#include "lab/outputs.hpp"
 #include "lab/roles.hpp"
 #include "lab/rotating_frame.hpp"
 
@@ -29,6 +30,7 @@ std::optional<std::string> unit_that_fits(const Effect& effect, const model::Mod
 /// Every combination of what may stand for the roles in an equation.
 std::vector<Binding> with_roles(const Effect& effect, const model::Model& model, std::size_t equation, const std::vector<bool>& measured, const std::string& unit) {
     std::vector<Binding> open = {{&effect, {equation}, {effect.term}, {{}}, {}, unit}};
+    open[0].in_output = output_of(model, model.equations[equation]) >= 0;
     for (const auto& [role, kind] : effect.roles) {
         std::vector<Binding> next;
         const std::vector<Filler> choices = fillers(kind, model, equation, measured);
@@ -91,7 +93,8 @@ std::vector<Binding> bindings(const Effect& effect, const model::Model& model, c
     std::vector<Binding> out;
     const auto frame = effect.d_term.empty() ? std::nullopt : rotating_frame(model, measured);
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
-        if (moved(model, model.equations[e]).signal < 0 || model.equations[e].sides.right == nullptr) continue;
+        if (model.equations[e].sides.right == nullptr) continue;
+        if (moved(model, model.equations[e]).signal < 0 && output_of(model, model.equations[e]) < 0) continue;
         const auto unit = unit_that_fits(effect, model, e);
         if (!unit) continue;
         if (frame && (e == frame->d_equation || e == frame->q_equation)) {

@@ -42,6 +42,7 @@ struct Binding {
     std::vector<Substitution> substitutions = {};
     std::vector<BoundState> states = {};
     std::string freed = {};                         ///< the constant that is let go
+    bool in_output = false;                         ///< it enters an equation that gives what a sensor shows
 };
 
 /// Every binding of an effect to a model whose signals are measured as said. An equation of unknown unit takes effects that fit

@@ -57,6 +57,7 @@ public:
             record();
             ++out_.samples;
             if (!finite || k + options_.stride >= end) break;
+            if (x.empty()) continue;   // outputs of what is recorded, and nothing moves
             choose_modes(x, 0.0);
             keep_slopes_ahead(x);
             if (!advance(x)) break;

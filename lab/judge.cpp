@@ -36,6 +36,12 @@ std::vector<std::string> unseen(const Variant& v) {
     return out;
 }
 
+/// True when some output's noise is taken from its roughness.
+bool guesses_noise(const Variant& v) {
+    const auto outputs = scored_outputs(v.model, v.bench);
+    return std::any_of(outputs.begin(), outputs.end(), [&](int s) { return !declares_noise(v.model.signals[static_cast<std::size_t>(s)]); });
+}
+
 }  // namespace
 
 Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection) {
@@ -48,7 +54,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     const double left = best.score.nrmse / nominal.score.nrmse;
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
-    } else if (best.score.gap() > far_from_the_floor) {
+    } else if (best.score.gap() > far_from_the_floor && !(guesses_noise(nominal) && left <= most_of_it)) {   // a floor that is a guess is no bar
         if ((best.score.gap() > too_far_for_noise && !white(best.score)) || structured(bench, best)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
@@ -82,7 +88,7 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
                                   100 * best.score.nrmse, 100 * nominal.score.nrmse));
     }
     if (verdict != Verdict::named && verdict != Verdict::ambiguous) return out;
-    for (const std::string& name : selection.as_well) out.push_back(fmt::format("{} explains the recording as well: what adds a term is named before what bends the model", name));
+    out.insert(out.end(), selection.as_well.begin(), selection.as_well.end());
     for (const Amendment& a : best.amendments) {
         for (const NewName& n : a.names) {
             const int p = best.model.parameter_index(n.name);

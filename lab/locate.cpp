@@ -117,12 +117,21 @@ struct Series {
     }
 };
 
-/// share: of the noise's power, by which the residual's is above it; not yet of the whole gap.
+/// By how much of the noise's power the residual's is above it; 0 where chance alone does that. Of n windows, every other one on its own,
+/// the mean square varies by sqrt(2 / (n/2)).
+double above_noise(double power, double noise, std::size_t values) {
+    if (noise <= 0) return 0;
+    constexpr double most_by_chance = 3;   // standard deviations
+    const double excess = power / (noise * noise) - 1;
+    return excess > most_by_chance * 2 / std::sqrt(static_cast<double>(values)) ? excess : 0;
+}
+
+/// share: as above_noise, not yet of the whole gap.
 Where where_of(const std::string& equation, const Series& r, double noise, const Workbench& bench, const Variant& nominal) {
     double squares = 0;
     for (const double x : r.values) squares += x * x;
     const double power = squares / static_cast<double>(std::max<std::size_t>(r.values.size(), 1));
-    Where out{equation, noise > 0 ? std::max(power / (noise * noise) - 1, 0.0) : 0.0, 0, 0, ""};
+    Where out{equation, above_noise(power, noise, r.values.size()), 0, 0, ""};
     // The stretch between whose ends nine tenths of the power lie.
     double sum = 0;
     for (std::size_t k = 0; k < r.values.size(); ++k) {
@@ -207,7 +216,8 @@ std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const 
     }
     double total = 0;
     for (const Where& w : out) total += w.share;
-    for (Where& w : out) w.share = total > 0 ? w.share / total : 0;
+    const bool off = total > 0 && nominal.score.gap() > at_the_floor;   // a long run that stays within the noise knows better than rows with a switch in them
+    for (Where& w : out) w.share = off ? w.share / total : 0;
     return out;
 }
 

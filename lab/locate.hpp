@@ -14,6 +14,7 @@ std::vector<EquationResidual> residuals(const Workbench& bench, const Variant& n
 
 /// Share, stretch of time and region of each equation's gap on the training rows: of its residual; where that is not to be had, for a
 /// signal of the equation is not measured, or where no residual rises above the noise, of the free run's error in the signal that it moves.
+/// Shares are 0 where the model runs within the noise.
 std::vector<Where> locate(const Workbench& bench, const Variant& nominal, const std::vector<EquationResidual>& residuals, const FreeRun& before);
 
 }  // namespace algest::lab

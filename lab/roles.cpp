@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "lab/equation_places.hpp"
 #include "lab/outputs.hpp"
@@ -64,6 +65,21 @@ std::vector<Filler> fillers_of_text(const std::string& kind, const model::Model&
     return out;
 }
 
+/// In an equation that gives what a sensor shows of recorded signals nothing moves: every recorded signal of the right unit stands for itself.
+std::vector<Filler> fillers_of_output(const std::string& kind, const model::Model& model, const model::Equation& e, const std::vector<bool>& measured) {
+    static const std::map<std::string, std::vector<std::string>> units = {{"speed", {"rad/s", "m/s"}}, {"position", {"rad", "m"}}, {"angle", {"rad"}}, {"current", {"A"}}};
+    if (kind == "time") return {{time_name(model), "s"}};
+    const auto wanted = units.find(kind);
+    if (wanted == units.end()) return kind == "constant" ? fillers_of_text(kind, model, e, {}) : std::vector<Filler>();
+    std::vector<Filler> out;
+    for (std::size_t s = 0; s < model.signals.size(); ++s) {
+        const model::Signal& signal = model.signals[s];
+        const auto fitting = [&](const std::string& u) { return fits(unit_of(signal), u); };
+        if (measured[s] && !is_output(model, static_cast<int>(s)) && std::any_of(wanted->second.begin(), wanted->second.end(), fitting)) out.push_back({signal.name, signal.unit});
+    }
+    return out;
+}
+
 }  // namespace
 
 int order_of_derivative(const formula::Formula& der) { return der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1; }
@@ -113,7 +129,7 @@ bool is_of_a_frame(const std::string& kind) { return kind == "d_current" || kind
 
 std::vector<Filler> fillers(const std::string& kind, const model::Model& model, std::size_t equation, const std::vector<bool>& measured) {
     const Moved own = moved(model, model.equations[equation]);
-    if (own.signal < 0) return {};
+    if (own.signal < 0) return output_of(model, model.equations[equation]) < 0 ? std::vector<Filler>() : fillers_of_output(kind, model, model.equations[equation], measured);
     const model::Signal& signal = model.signals[static_cast<std::size_t>(own.signal)];
     if (is_of_a_frame(kind)) return fillers_of_frame(kind, model, equation, measured);
     std::vector<Filler> out = fillers_of_text(kind, model, model.equations[equation], signal);

@@ -43,7 +43,7 @@ double size_of(const std::vector<double>& measured);
 /// Errors over rows [begin, end) of every simulated signal that is measured and scored.
 std::vector<OutputError> output_errors(const model::Model& model, const Bench& bench, const FreeRun& run, std::size_t begin, std::size_t end);
 
-/// `t [s]` and every simulated signal, as CSV.
+/// `t [s]` and every simulated signal, as CSV. model: the one that was run.
 std::string run_csv(const model::Model& model, const Recording& recording, const FreeRun& run);
 
 }  // namespace algest::lab

@@ -62,7 +62,6 @@ TEST_CASE("free run: dry friction stops a sliding mass and holds it until the fo
                                                                       {"- Fc*sgn(2*v)", 0.0},
                                                                       {"- Fc*sgn(v/k - 0)", 0.0},
                                                                       {"- 0.4*Fc*sgn(v) + 0.6*Fc*sgn(-3*v)", 0.0},
-                                                                      {"- Fc*sgn(v - 0.4)", 0.4},
                                                                       {"- Fc*sgn(v - vb)", 0.4},
                                                                       {"+ Fc*sgn(k*(vp - v))", 0.4},
                                                                       {"- 0.4*Fc*sgn(v - vb) + 0.6*Fc*sgn(2*vb - 2*v)", 0.4}}));
