@@ -71,6 +71,19 @@ int replay_several(const ReplayOptions& options, const lab::Stretch& stretch);
 /// "confused": [{"unknowns", "hardly", "text"}]}.
 int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch);
 
+struct DesignOptions {
+    std::string model;
+    std::string recording;
+    std::optional<double> accuracy;   ///< relative error that is wanted
+    lab::CsvStyle csv;
+    bool json = false;
+};
+/// Tries windows, kappa and rows on the recording and recommends. 1: the accuracy is out of reach, or nothing is determined. JSON: {"model", "recording",
+/// "reference": {"free_run", "parameters": [{"name", "unit", "value"}]}, "accuracy", "reached", "recommended": TRIAL, "curve": [TRIAL], "others": [TRIAL],
+/// "missing": [text]}, TRIAL {"window_s", "kappa": [by equation], "rows": [[p]], "engine", "multiply_adds", "ok", "noise", "perturbation", "error",
+/// "parameters": [{"name", "mean", "scatter"}]}.
+int design(const DesignOptions& options);
+
 struct SimulateOptions {
     std::string model;
     std::string recording;
