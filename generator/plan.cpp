@@ -227,7 +227,7 @@ private:
     }
 
     void collect_differentiated(const formula::Formula& f, std::set<int>& out) const {
-        if (f->kind == formula::Kind::call && f->name == "der") out.insert(model_.signal_index(f->arguments[0]->name));
+        if (formula::is_derivative(f)) out.insert(model_.signal_index(f->arguments[0]->name));
         for (const formula::Formula& a : f->arguments) collect_differentiated(a, out);
     }
 

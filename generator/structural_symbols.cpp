@@ -97,7 +97,7 @@ ex Symbols::call(const Formula& f) {
     const ex x = of(f->arguments[0]);
     if (f->name == "der") {
         ex out = x;
-        for (int k = f->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(f->arguments[1]->value)) : 1; k > 0; --k) out = derivative(out);
+        for (int k = formula::derivative_order(f); k > 0; --k) out = derivative(out);
         return out;
     }
     if (f->name == "sin") return function(Atom::Kind::sine, x);
