@@ -28,7 +28,7 @@ struct Neighbours<S, true> {
         else return (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
     }
     static Lanes absolute(const Lanes& x) noexcept {
-        Lanes out;
+        Lanes out = x;
         for (int j = 0; j < width; ++j) out[j] = std::abs(x[j]);
         return out;
     }
