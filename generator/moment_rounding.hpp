@@ -10,7 +10,7 @@ namespace algest::generator {
 ///
 /// Counted are one rounding of each x - c, and those of the accumulators: of n additions a frame, n/2 where it sums a constant, whose roundings are
 /// all alike (with the window's shift inside the frame at its largest), and 8 + sqrt(n) of the rest, which are as good as random, both at the largest
-/// coordinate. Pessimistic by about ten.
+/// coordinate. Pessimistic, ten to fifty times.
 exact::Rational rounding_gain(const kernel::WindowPolynomial& polynomial, int intervals, const exact::Rational& step, plan::Scalar scalar, plan::Accumulators accumulators);
 
 }  // namespace algest::generator

@@ -59,17 +59,17 @@ public:
             ends_.push_back({s(p.oldest), s(p.newest), s(kernel::integral(kernels[t], intervals, rule.hold, rule.quadrature)), s(gain), static_cast<int>(kernels[t].size()) - 1});
             const auto of = static_cast<std::uint16_t>(t);
             functionals_.push_back({of, 0, of, 1});
-            terms_.push_back({of, 0, S(1)});   // one row each, and its known side stays 0
+            terms_.push_back({static_cast<std::uint16_t>(of / row_entries_), static_cast<std::uint16_t>(of % row_entries_), S(1)});   // one entry each
         }
         degree_ = static_cast<unsigned char>(count - 1);
         set_ = {degree_, static_cast<S>(exact::nearest(step, plan::Scalar::float64)), {&degree_, 1}, {coefficients_.data(), static_cast<int>(coefficients_.size())}, {ends_.data(), static_cast<int>(ends_.size())}};
-        rows_ = {intervals + 1, 1, static_cast<int>(kernels.size()), 1, {nullptr, 0}, {functionals_.data(), static_cast<int>(functionals_.size())}, {terms_.data(), static_cast<int>(terms_.size())}};
+        rows_ = {intervals + 1, 1, (static_cast<int>(kernels.size()) + row_entries_ - 1) / row_entries_, row_entries_ - 1, {nullptr, 0}, {functionals_.data(), static_cast<int>(functionals_.size())}, {terms_.data(), static_cast<int>(terms_.size())}};
         accumulators_.resize(static_cast<std::size_t>(moment_accumulators<A>(1, set_.degree, false)));
         references_.resize(static_cast<std::size_t>(moment_references<A>(1)));
         sizes_.resize(references_.size());
         scratch_.resize(static_cast<std::size_t>(moment_scratch(1, set_.degree)));
         ring_.resize(samples_);
-        matrix_.resize(2 * kernels.size());
+        matrix_.resize(static_cast<std::size_t>(row_entries(rows_.rows, rows_.unknowns)));
         entry_sizes_.resize(matrix_.size());
         restart();
     }
@@ -82,7 +82,7 @@ public:
         ring_[head_] = x;
         head_ = head_ + 1 == samples_ ? 0 : head_ + 1;
     }
-    /// Of a full window: value and a zero, kernel by kernel.
+    /// Of a full window, kernel by kernel.
     const S* evaluate() {
         evaluate_moment_rows(set_, rows_, memory(), &ring_[head_], &ring_[head_ == 0 ? samples_ - 1 : head_ - 1], scratch_.data(), RowSums<S>{matrix_.data(), entry_sizes_.data()});
         return matrix_.data();
@@ -90,15 +90,15 @@ public:
     /// Of a full window, by kernel.
     std::vector<S> values() {
         const S* matrix = evaluate();
-        std::vector<S> out;
-        for (std::size_t t = 0; t < matrix_.size(); t += 2) out.push_back(matrix[t]);
-        return out;
+        return {matrix, matrix + functionals_.size()};
     }
     /// Sample m of the window, 0 the oldest.
     S sample(std::size_t m) const { return ring_[(head_ + m) % samples_]; }
 
 private:
     MomentMemory<S, A> memory() { return {accumulators_.data(), references_.data(), sizes_.data(), &progress_}; }
+
+    static constexpr int row_entries_ = 3;   ///< rows of two unknowns
 
     std::size_t samples_;
     std::size_t head_ = 0;

@@ -14,14 +14,24 @@ struct Neighbours {
     typedef S Lanes;
     typedef S Unaligned;
     static constexpr int width = 1;
-    static S at(const Lanes& lanes, int) noexcept { return lanes; }
+    static S sum(const Lanes& lanes) noexcept { return lanes; }
+    static Lanes absolute(const Lanes& x) noexcept { return std::abs(x); }
 };
 template <class S>
 struct Neighbours<S, true> {
     typedef S Lanes __attribute__((vector_size(16)));
     typedef S Unaligned __attribute__((vector_size(16), aligned(alignof(S)), may_alias));
     static constexpr int width = 16 / static_cast<int>(sizeof(S));
-    static S at(const Lanes& lanes, int j) noexcept { return lanes[j]; }
+    /// Halves first: 0+1, or (0+2) + (1+3).
+    static S sum(const Lanes& lanes) noexcept {
+        if constexpr (width == 2) return lanes[0] + lanes[1];
+        else return (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
+    }
+    static Lanes absolute(const Lanes& x) noexcept {
+        Lanes out = x;
+        for (int j = 0; j < width; ++j) out[j] = std::abs(x[j]);
+        return out;
+    }
 };
 
 }  // namespace detail
@@ -39,7 +49,12 @@ inline void dots(const S* const* weights, const S* samples, int count, S* sums) 
     using Lanes = typename detail::Neighbours<S>::Lanes;
     constexpr int width = detail::Neighbours<S>::width;
     constexpr int parts = 8 / width;
-    Lanes lane[tables][parts] = {};
+    Lanes lane[tables][parts];
+#pragma GCC unroll 8
+    for (int t = 0; t < tables; ++t) {
+#pragma GCC unroll 8
+        for (int j = 0; j < parts; ++j) lane[t][j] = Lanes{};   // `= {}` for all of them would go through memory
+    }
     int k = 0;
     for (; k + 8 <= count; k += 8) {
 #pragma GCC unroll 8
@@ -51,8 +66,12 @@ inline void dots(const S* const* weights, const S* samples, int count, S* sums) 
     }
 #pragma GCC unroll 8
     for (int t = 0; t < tables; ++t) {
-        const auto of = [&](int j) { return detail::Neighbours<S>::at(lane[t][j / width], j % width); };
-        S sum = ((of(0) + of(4)) + (of(2) + of(6))) + ((of(1) + of(5)) + (of(3) + of(7)));
+#pragma GCC unroll 8
+        for (int half = parts / 2; half > 0; half /= 2) {
+#pragma GCC unroll 8
+            for (int j = 0; j < half; ++j) lane[t][j] += lane[t][j + half];
+        }
+        S sum = detail::Neighbours<S>::sum(lane[t][0]);
         for (int j = k; j < count; ++j) sum += weights[t][j] * samples[j];
         sums[t] = sum;
     }
@@ -65,17 +84,30 @@ inline S dot(const S* weights, const S* samples, int count) noexcept {
     return sum;
 }
 
-/// sizes[t] = sum over k of |weights[t][k] * samples[k]|, about: by the midpoint rule over 16 to 31 strides, every product where there are fewer.
-/// What dots() may leave of a sum that vanishes is measured by it. Cost: at most 31 multiplications and additions a table.
+/// sizes[t] = sum over k of |weights[t][k] * samples[k]|, about: by the midpoint rule over 8 to 15 strides, each with the products of neighbours in
+/// its middle; every product where there are fewer. What dots() may leave of a sum that vanishes is measured by it.
+/// Cost: at most 32 multiplications and additions a table (double: 30).
 template <int tables, class S>
 inline void dot_sizes(const S* const* weights, const S* samples, int count, S* sizes) noexcept {
-    const int stride = count < 32 ? 1 : count / 16;
-    S sums[tables] = {};
-    for (int k = stride / 2; k < count; k += stride) {
-        const S x = std::abs(samples[k]);
-        for (int t = 0; t < tables; ++t) sums[t] += std::abs(weights[t][k]) * x;
+    using Unaligned = typename detail::Neighbours<S>::Unaligned;
+    using Lanes = typename detail::Neighbours<S>::Lanes;
+    constexpr int width = detail::Neighbours<S>::width;
+    const int stride = count < 16 * width ? width : count / 8;
+    Lanes lanes[tables];
+#pragma GCC unroll 8
+    for (int t = 0; t < tables; ++t) lanes[t] = Lanes{};
+    int k = (stride - width) / 2;
+    for (; k + width <= count; k += stride) {
+        const Lanes x = *reinterpret_cast<const Unaligned*>(samples + k);
+#pragma GCC unroll 8
+        for (int t = 0; t < tables; ++t) lanes[t] += detail::Neighbours<S>::absolute(*reinterpret_cast<const Unaligned*>(weights[t] + k) * x);
     }
-    for (int t = 0; t < tables; ++t) sizes[t] = sums[t] * S(stride);
+#pragma GCC unroll 8
+    for (int t = 0; t < tables; ++t) {
+        S sum = detail::Neighbours<S>::sum(lanes[t]);
+        for (int j = k; stride == width && j < count; ++j) sum += std::abs(weights[t][j] * samples[j]);
+        sizes[t] = sum * (S(stride) / S(width));
+    }
 }
 
 }  // namespace algest

@@ -21,7 +21,7 @@ namespace algest {
 /// Frames that are summed anew while one is served. More of them keep the window near the middle of its frame, where the shift to the window
 /// loses fewest digits; two floats have digits to lose, and their sums cost more.
 template <class A>
-inline constexpr int rebuilt_frames = 4;
+inline constexpr int rebuilt_frames = 3;
 template <class S>
 inline constexpr int rebuilt_frames<Twofold<S>> = 2;
 template <class A>
