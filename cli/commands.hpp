@@ -39,7 +39,8 @@ struct GenerateOptions {
     bool json = false;
 };
 /// Writes the estimators, DIR/NAME/..., or compares them with what is there (1: they differ). A model that fails leaves
-/// nothing; the others are written. JSON: {"models": [{"model", "name", "written": [path]}]}, with --check
+/// nothing; the others are written. JSON: {"models": [{"model", "name", "written": [path], "cost": [{"engine", "operations" (a sample,
+/// floating-point, besides solve and formulas), "memory", "tables" (bytes)}] (the chosen engine's, then the other's)}]}, with --check
 /// {"models": [{"model", "name", "differences": [{"path", "difference"}]}]}; after an error with "error": [...] in front,
 /// and with the models that did not fail.
 int generate(const GenerateOptions& options);
