@@ -139,8 +139,7 @@ class Design(CommandLine):
     def test_measured_axis(self):
         text = (SOURCE / "models" / "positioning_axis.toml").read_text()
         published = {"M": 95.11, "Fv": 203.5, "Fc": 20.39, "offset": -3.16}   # Janot, Gautier, Brunot 2019, as recordings/README.md has them
-        self.recommended_is_roughly_best(text, EMPS, published, [0.006, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 3, 5])
-        answer = self.algest_json("design", self.folder / "model.toml", EMPS)
+        answer = self.recommended_is_roughly_best(text, EMPS, published, [0.006, 0.02, 0.1, 0.5, 2, 3])
         for p in answer["reference"]["parameters"]:
             self.assertLess(abs(p["value"] / published[p["name"]] - 1), 0.03, p)
 
