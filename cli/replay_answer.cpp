@@ -75,7 +75,8 @@ ordered_json replay_json(const std::string& model, const std::string& recording,
                               {"unit", plan.parameters[p].unit},
                               {"last", number_or_null(summary.last[p])},
                               {"median", number_or_null(summary.median[p])},
-                              {"sd", number_or_null(summary.deviation[p])}});
+                              {"sd", number_or_null(summary.deviation[p])},
+                              {"bias", number_or_null(summary.bias[p])}});
     }
     ordered_json status = ordered_json::object();
     for (std::size_t s = 0; s < summary.count.size(); ++s) status[name(static_cast<Status>(s))] = summary.count[s];
@@ -111,11 +112,11 @@ std::string replay_text(const plan::Plan& plan, const lab::Replay& replay, const
     std::size_t width = std::string("parameter").size();
     for (const plan::Parameter& p : plan.parameters) width = std::max(width, p.name.size());
     const bool deviations = std::any_of(summary.deviation.begin(), summary.deviation.end(), [](const auto& d) { return d.has_value(); });
-    const auto sd = [&](const std::string& text) { return deviations ? fmt::format("{:>12}  ", text) : std::string(); };
-    std::string out = fmt::format("{:<{}}  {:>12}  {}{:>12}  {}\n", "parameter", width, "last", sd("sd"), "median", "unit");
+    const auto if_known = [&](const std::string& text) { return deviations ? fmt::format("{:>12}  ", text) : std::string(); };
+    std::string out = fmt::format("{:<{}}  {:>12}  {}{}{:>12}  {}\n", "parameter", width, "last", if_known("sd"), if_known("bias"), "median", "unit");
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
-        out += fmt::format("{:<{}}  {:>12}  {}{:>12}  {}\n", plan.parameters[p].name, width, number_text(summary.last[p]),
-                           sd(number_text(summary.deviation[p])), number_text(summary.median[p]), plan.parameters[p].unit);
+        out += fmt::format("{:<{}}  {:>12}  {}{}{:>12}  {}\n", plan.parameters[p].name, width, number_text(summary.last[p]),
+                           if_known(number_text(summary.deviation[p])), if_known(number_text(summary.bias[p])), number_text(summary.median[p]), plan.parameters[p].unit);
     }
     out += fmt::format("\n{} samples, {:.6g} s to {:.6g} s:", replay.samples(), replay.t.front(), replay.t.back());
     for (std::size_t s = 0; s < summary.count.size(); ++s) {

@@ -10,7 +10,7 @@
 
 namespace algest::cli {
 
-/// {"model", "recording", "samples", "period_s", "parameters": [{"name", "unit", "last", "median", "sd"}], "status", "condition", ...}
+/// {"model", "recording", "samples", "period_s", "parameters": [{"name", "unit", "last", "median", "sd", "bias"}], "status", "condition", ...}
 nlohmann::ordered_json replay_json(const std::string& model, const std::string& recording, const plan::Plan& plan, const lab::Replay& replay,
                                    const lab::ReplaySummary& summary);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/variant.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -111,6 +113,11 @@ std::optional<Parts> parts_of(const Recording& recording, const std::optional<st
     Parts out{};
     out.train = train ? Rows{row(train->first), row(train->second)} : Rows{0, samples * 7 / 10};
     out.test = test ? Rows{row(test->first), std::min(row(test->second) + 1, samples)} : Rows{out.train.end, samples};
+    if (train && !test && out.train.end + least_test > samples && out.train.end >= out.train.begin + least_train) {
+        diagnostics.error(recording.file, {}, fmt::format("--train {:g}:{:g} leaves {} samples to test on: the recording goes from {:.6g} s to {:.6g} s", train->first, train->second, samples - out.train.end, recording.t.front(), recording.t.back()),
+                          fmt::format("train on less, e.g. --train {:g}:{:.3g}; at least {} samples behind it are needed", train->first, recording.t[out.train.begin + (samples - out.train.begin) * 7 / 10], least_test));
+        return std::nullopt;
+    }
     if (out.train.end <= out.train.begin + least_train || out.test.end <= out.test.begin + least_test) {
         const auto size = [](const Rows& r) { return std::to_string(r.end > r.begin ? r.end - r.begin : 0); };
         diagnostics.error(recording.file, {}, "too short: " + size(out.train) + " samples to train on, " + size(out.test) + " to test on",
@@ -131,6 +138,7 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     Diagnostics quiet;
     Diagnostics& said = amendments.empty() ? diagnostics : quiet;
     auto model = model::read_from_text(text, path_, false, said);
+    if (!model && !amendments.empty()) unwritten_.insert(amendments.back().effect);
     if (!model) return std::nullopt;
     if (amendments.empty()) find_idle_kinematics(*model);
     const model::Model whole = *model;

@@ -223,7 +223,7 @@ class Replay(CommandLine):
         self.assertEqual((value["samples"], value["period_s"]), (200, 0.001))
         self.assertEqual(value["status"], {"filling": 50, "ok": 150, "singular": 0, "rejected": 0})   # 51 samples fill 0.05 s
         for parameter, (name, unit, true_value) in zip(value["parameters"], (("R", "ohm", R), ("L", "H", L))):
-            self.assertEqual(list(parameter), ["name", "unit", "last", "median", "sd"])
+            self.assertEqual(list(parameter), ["name", "unit", "last", "median", "sd", "bias"])
             self.assertEqual((parameter["name"], parameter["unit"], parameter["sd"]), (name, unit, None))
             self.assertAlmostEqual(parameter["last"] / true_value, 1, delta=1e-3)
             self.assertAlmostEqual(parameter["median"] / true_value, 1, delta=1e-3)
@@ -249,7 +249,7 @@ class Replay(CommandLine):
         self.assertEqual(float(last[2]), value["condition"]["last"])
 
     def test_standard_deviations_where_noise_is_declared(self):
-        found = []
+        found, biases = [], []
         for noise in ("1e-3", "2e-3"):
             self.write("noisy.toml", RL_CIRCUIT.replace('i = { unit = "A" }', f'i = {{ unit = "A", noise = {noise} }}'))
             value = self.algest_json("replay", "noisy.toml", "coil.csv", "-o", "e.csv")
@@ -262,10 +262,13 @@ class Replay(CommandLine):
             alone = self.algest_json("replay", "noisy.toml", "coil.csv")     # without a CSV: that of the last estimate
             self.assertEqual([p["sd"] for p in alone["parameters"]], found[-1])
             out, _ = self.algest("replay", "noisy.toml", "coil.csv")
-            self.assertRegex(out, r"(?m)^parameter +last +sd +median")
+            self.assertRegex(out, r"(?m)^parameter +last +sd +bias +median")
+            biases.append([p["bias"] for p in value["parameters"]])
         for one, two in zip(*found):     # twice the noise: linear, but for the rounding of 1e-3 itself
             self.assertGreater(one, 0)
             self.assertAlmostEqual(two / one, 2, delta=1e-9)
+        for one, two in zip(*biases):    # of second order in the noise
+            self.assertAlmostEqual(two / one, 4, delta=1e-9)
 
     def test_a_stretch(self):
         value = self.algest_json("replay", "rl.toml", "coil.csv", "--from", "0.1", "--to", "0.16")
