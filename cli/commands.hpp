@@ -13,10 +13,13 @@ namespace algest::cli {
 struct CheckOptions {
     std::vector<std::string> models;
     bool strict = false;
+    bool identifiability = false;      ///< the structural verdict of every parameter instead of an estimator's soundness
+    std::vector<std::string> hidden;   ///< signals that nobody measures
     bool json = false;
 };
 /// Are the models sound and identifiable? 0: all; 1: one is not identifiable; 2: one is not sound.
-/// JSON: {"models": [{"model", "ok", "warnings"}]}, after an error with "error": [...] in front.
+/// JSON: {"models": [{"model", "ok", "warnings"}]}, after an error with "error": [...] in front; with `identifiability` each sound model has
+/// "identifiability": what cli/identifiability.hpp says.
 int check(const CheckOptions& options);
 
 struct DeriveOptions {
@@ -36,7 +39,8 @@ struct GenerateOptions {
     bool json = false;
 };
 /// Writes the estimators, DIR/NAME/..., or compares them with what is there (1: they differ). A model that fails leaves
-/// nothing; the others are written. JSON: {"models": [{"model", "name", "written": [path]}]}, with --check
+/// nothing; the others are written. JSON: {"models": [{"model", "name", "written": [path], "cost": [{"engine", "operations" (a sample,
+/// floating-point, besides solve and formulas), "memory", "tables" (bytes)}] (the chosen engine's, then the other's)}]}, with --check
 /// {"models": [{"model", "name", "differences": [{"path", "difference"}]}]}; after an error with "error": [...] in front,
 /// and with the models that did not fail.
 int generate(const GenerateOptions& options);
@@ -66,6 +70,19 @@ int replay_several(const ReplayOptions& options, const lab::Stretch& stretch);
 /// "recording", "samples", "uniform", "instants", "parameters": [{"name", "unit", "value", "sd"}], "condition", "correlated_instants",
 /// "confused": [{"unknowns", "hardly", "text"}]}.
 int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch);
+
+struct DesignOptions {
+    std::string model;
+    std::string recording;
+    std::optional<double> accuracy;   ///< relative error that is wanted
+    lab::CsvStyle csv;
+    bool json = false;
+};
+/// Tries windows, kappa and rows on the recording and recommends. 1: the accuracy is out of reach, or nothing is determined. JSON: {"model", "recording",
+/// "reference": {"free_run", "parameters": [{"name", "unit", "value"}]}, "accuracy", "reached", "recommended": TRIAL, "curve": [TRIAL], "others": [TRIAL],
+/// "missing": [text]}, TRIAL {"window_s", "kappa": [by equation], "rows": [[p]], "engine", "multiply_adds", "ok", "noise", "perturbation", "error",
+/// "parameters": [{"name", "mean", "scatter"}]}.
+int design(const DesignOptions& options);
 
 struct SimulateOptions {
     std::string model;

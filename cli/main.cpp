@@ -21,11 +21,14 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
     CLI::App* command = app.add_subcommand("check", "Are the models sound and identifiable?");
     command->add_option("MODEL", options.models, "model files")->required();
     command->add_flag("--strict", options.strict, "a quantity without unit is an error");
+    CLI::Option* const structural = command->add_flag("--identifiability", options.identifiability, "which parameters perfect measurements determine: globally, locally or not, and then which combination");
+    command->add_option("--hidden", options.hidden, "signals that nobody measures; with --identifiability")->type_name("NAME,...")->delimiter(',')->allow_extra_args(false)->needs(structural);
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "Exit code: 0 all are, 1 one is not identifiable, 2 one is not sound.\n\n"
         "Examples:\n"
         "  algest check models/rl_circuit.toml\n"
+        "  algest check models/motor_pump.toml --identifiability --hidden P_0\n"
         "  algest check models/*.toml --strict");
     return command;
 }
@@ -112,6 +115,21 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
     return command;
 }
 
+CLI::App* add_design(CLI::App& app, DesignOptions& options) {
+    CLI::App* command = app.add_subcommand("design", "Which window, rows, kappa and engine suit a recording");
+    command->add_option("MODEL", options.model, "model file; its window may be left out")->required();
+    command->add_option("RECORDING", options.recording, recording_text)->required();
+    command->add_option("--accuracy", options.accuracy, "relative error that is wanted, e.g. 0.02: the shortest window that has it; default: the least error")->type_name("SHARE")->check(CLI::PositiveNumber);
+    add_csv_style(*command, options.csv);
+    command->add_flag("--json", options.json, json_text);
+    command->footer(
+        "Exit code: 0 done, 1 the accuracy is out of reach or the recording determines nothing, 2 a model or a file is at fault.\n\n"
+        "Examples:\n"
+        "  algest design models/rl_circuit.toml examples/rl_circuit/recording.csv\n"
+        "  algest design models/rl_circuit.toml examples/rl_circuit/recording.csv --accuracy 0.05 --json");
+    return command;
+}
+
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
     CLI::App* command = app.add_subcommand("simulate", "Runs a model freely over the inputs of a recording");
     command->add_option("MODEL", options.model, "model file")->required();
@@ -172,12 +190,14 @@ int parse_and_run(int argc, char** argv, bool json) {
     DeriveOptions derive_options;
     GenerateOptions generate_options;
     ReplayOptions replay_options;
+    DesignOptions design_options;
     SimulateOptions simulate_options;
     DiscoverOptions discover_options;
     const CLI::App* check_command = add_check(app, check_options);
     const CLI::App* derive_command = add_derive(app, derive_options);
     const CLI::App* generate_command = add_generate(app, generate_options);
     const CLI::App* replay_command = add_replay(app, replay_options);
+    const CLI::App* design_command = add_design(app, design_options);
     const CLI::App* simulate_command = add_simulate(app, simulate_options);
     const CLI::App* discover_command = add_discover(app, discover_options);
     if (argc > 1 && argv[1][0] != '-') {
@@ -199,6 +219,7 @@ int parse_and_run(int argc, char** argv, bool json) {
     if (derive_command->parsed()) return derive(derive_options);
     if (generate_command->parsed()) return generate(generate_options);
     if (replay_command->parsed()) return replay(replay_options);
+    if (design_command->parsed()) return design(design_options);
     if (simulate_command->parsed()) return simulate(simulate_options);
     if (discover_command->parsed()) return discover(discover_options);
     return exit_bad_input;

@@ -41,7 +41,7 @@ void start_at_fit(Variant& v) {
 
 /// der(x) = v.
 bool is_kinematic(const model::Model& model, const model::Equation& e) {
-    const auto is_rate = [](const formula::Formula& f) { return f->kind == formula::Kind::call && f->name == "der" && f->arguments.size() == 1; };
+    const auto is_rate = [](const formula::Formula& f) { return formula::is_derivative(f) && formula::derivative_order(f) == 1; };
     const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
     return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
 }
@@ -178,7 +178,7 @@ std::optional<model::Model> Workbench::runnable(const std::string& text) const {
 void Workbench::find_idle_kinematics(const model::Model& model) {
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
         const formula::Formula& left = model.equations[e].sides.left;
-        if (left->kind != formula::Kind::call || left->name != "der" || left->arguments.size() != 1) continue;
+        if (!formula::is_derivative(left) || formula::derivative_order(left) != 1) continue;
         const model::Signal& x = *model.signal(left->arguments[0]->name);
         bool used = false;
         for (std::size_t other = 0; other < model.equations.size(); ++other) {

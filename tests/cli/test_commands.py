@@ -129,6 +129,31 @@ class Generate(CommandLine):
         for file in self.FILES:
             self.assertEqual((self.folder / "generated" / file).read_bytes(), (self.folder / "a/b" / file).read_bytes())
 
+    def test_says_what_each_engine_costs(self):
+        def costs(window, *options):
+            self.write("sized.toml", RL_CIRCUIT.replace("window = 0.05", f"window = {window}"))
+            [model] = self.algest_json("generate", "sized.toml", *options)["models"]
+            return {cost["engine"]: cost for cost in model["cost"]}, [cost["engine"] for cost in model["cost"]]
+        short, order = costs(0.05)
+        long, _ = costs(5)
+        self.assertEqual(order, ["fir", "moments"])
+        self.assertEqual(costs(5, "--engine", "moments")[1], ["moments", "fir"])
+        # two rows of three functionals each, a product and a sum for each of 51 samples
+        self.assertEqual(short["fir"]["operations"], 2 * 6 * 51)
+        self.assertEqual(long["fir"]["operations"], 2 * 6 * 5001)
+        self.assertEqual(short["fir"]["tables"] * 5001, long["fir"]["tables"] * 51)
+        for what in ("operations", "tables"):
+            self.assertEqual(short["moments"][what], long["moments"][what])
+        self.assertLess(long["moments"]["memory"], long["fir"]["memory"] / 1.9)   # each sample once, not twice
+        _, err = self.algest("generate", "sized.toml")
+        self.assertRegex(err, "engine fir: 60012 operations a sample, [0-9]+ bytes of memory, [0-9]+ of tables; moments: ")
+
+    def test_a_model_that_moments_cannot_serve_is_generated_with_fir(self):
+        self.write("simpson.toml", RL_CIRCUIT + '[estimator]\nquadrature = "simpson"\n')
+        _, err = self.algest("generate", "simpson.toml", "--engine", "moments")
+        self.assertIn("engine fir instead of moments: Simpson's weights alternate", err)
+        self.assertIn("engine fir", (self.folder / "generated/rl/rl.hpp").read_text())
+
     def test_check_writes_nothing_and_shows_the_difference(self):
         out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
         self.assertIn("rl.hpp", out)
