@@ -19,11 +19,11 @@ struct Selection {
     std::vector<Variant> rivals;        ///< that the validation rows do not tell from it
     std::vector<Evidence> evidence;
     bool cut_short;                     ///< the effort of the bench was used up before every candidate was tried
-    std::vector<std::string> as_well = {};   ///< effects that bend the model and explain as much as the term that was chosen
+    std::vector<std::string> as_well = {};   ///< effects that explain as much as the plainer one that was chosen
 };
 
-/// True when a is so much nearer than b that adding something to b is worth it.
-bool worth_it(const Score& a, const Score& b);
+/// True when a is so much nearer than b that adding something to b is worth it: its error surely below `gain` times b's.
+bool worth_it(const Score& a, const Score& b, double gain);
 
 /// Searches until the gap is at the floor, nothing is worth adding, three effects stand, or the effort of the bench is used up.
 Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const StepReport& progress);
