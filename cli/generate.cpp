@@ -12,6 +12,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
+#include "generator/cost.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {
@@ -24,7 +25,25 @@ using nlohmann::ordered_json;
 struct Made {
     std::string model;
     generator::Generated generated;
+    ordered_json cost;   ///< of the chosen engine first, then of the other
 };
+
+ordered_json json(const std::vector<generator::EngineCost>& costs) {
+    ordered_json out = ordered_json::array();
+    for (const auto& [engine, cost] : costs) {
+        out.push_back({{"engine", engine}, {"operations", cost.operations * (cost.push + cost.estimate)}, {"memory", cost.instance_bytes}, {"tables", cost.table_bytes}});
+    }
+    return out;
+}
+
+std::string text(const ordered_json& costs) {
+    std::string out;
+    for (const ordered_json& c : costs) {
+        out += (out.empty() ? "engine " : "; ") + c["engine"].get<std::string>() + ": " + c["operations"].dump() + " operations a sample, " + c["memory"].dump() +
+               " bytes of memory, " + c["tables"].dump() + " of tables";
+    }
+    return out;
+}
 
 /// Generates every model; those that fail tell `outcome`. Two of one name would share files: then there are none.
 std::vector<Made> make_all(const GenerateOptions& options, Outcome& outcome) {
@@ -45,7 +64,9 @@ std::vector<Made> make_all(const GenerateOptions& options, Outcome& outcome) {
             } else if (!options.check) {
                 for (const std::string& text : generated->notes) diagnostics.note(model, text);
             }
-            out.push_back({model, std::move(*generated)});
+            ordered_json cost = json(options.check ? std::vector<generator::EngineCost>() : generator::engine_costs(model, plan_options));
+            if (!cost.empty()) diagnostics.note(model, text(cost));
+            out.push_back({model, std::move(*generated), std::move(cost)});
         }
         outcome.take(diagnostics);
     }
@@ -121,6 +142,7 @@ int generate(const GenerateOptions& options) {
         } else if (write(files, diagnostics)) {
             entry["written"] = ordered_json::array();
             for (const generator::EmittedFile& file : files) entry["written"].push_back(file.path);
+            entry["cost"] = made.cost;
             done.push_back(std::move(entry));
         }
         outcome.take(diagnostics);

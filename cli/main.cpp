@@ -21,11 +21,14 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
     CLI::App* command = app.add_subcommand("check", "Are the models sound and identifiable?");
     command->add_option("MODEL", options.models, "model files")->required();
     command->add_flag("--strict", options.strict, "a quantity without unit is an error");
+    CLI::Option* const structural = command->add_flag("--identifiability", options.identifiability, "which parameters perfect measurements determine: globally, locally or not, and then which combination");
+    command->add_option("--hidden", options.hidden, "signals that nobody measures; with --identifiability")->type_name("NAME,...")->delimiter(',')->allow_extra_args(false)->needs(structural);
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "Exit code: 0 all are, 1 one is not identifiable, 2 one is not sound.\n\n"
         "Examples:\n"
         "  algest check models/rl_circuit.toml\n"
+        "  algest check models/motor_pump.toml --identifiability --hidden P_0\n"
         "  algest check models/*.toml --strict");
     return command;
 }
@@ -78,15 +81,20 @@ void add_csv_style(CLI::App& command, algest::lab::CsvStyle& style) {
     }, "numbers of a CSV file are written 1,5; columns are then separated by semicolons, unless --separator tab");
 }
 
+constexpr const char* report_text = "write a page with figures, tables and the mathematics, to be read in a browser or on paper";
 constexpr const char* recording_text = "CSV file (.gz too) with a header `name [unit]` and a column `t [s]`, or a MATLAB file (.mat) with a vector t";
 
 CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
     CLI::App* command = app.add_subcommand("replay", "Runs the estimator of a model over a recording");
     command->add_option("MODEL", options.model, "model file")->required();
-    command->add_option("RECORDING", options.recording, recording_text)
+    command->add_option("RECORDING", options.recordings, std::string(recording_text) + "; several: a line each, failures last")
         ->required();
     command->add_option("-o,--output", options.output, "write status, condition and parameters of every sample")
         ->type_name("FILE.csv");
+    command->add_option("--report", options.report, report_text)->type_name("FILE.html");
+    command->add_option("--jobs", options.jobs, "recordings replayed at once, where there are several; default: as many as there are processors")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
     command->add_option("--scalar", options.scalar, "double or float, as the estimator on the target")
         ->check(CLI::IsMember({"double", "float"}))
         ->capture_default_str();
@@ -100,8 +108,25 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
         "  algest replay models/positioning_axis.toml emps.csv\n"
         "  algest replay models/positioning_axis.toml emps.csv --from 2 --to 10 -o estimates.csv\n"
         "  algest replay models/pendulum.toml swing.csv --json\n"
+        "  algest replay models/pendulum.toml swing.csv --report swing.html\n"
+        "  algest replay models/pendulum.toml monday/*.csv --jobs 4\n"
         "  algest replay models/servo.toml lift.csv --batch\n\n"
         "Exit code: 0 done, 1 --batch found parameters that the recording does not determine, 2 a model or a file is at fault.");
+    return command;
+}
+
+CLI::App* add_design(CLI::App& app, DesignOptions& options) {
+    CLI::App* command = app.add_subcommand("design", "Which window, rows, kappa and engine suit a recording");
+    command->add_option("MODEL", options.model, "model file; its window may be left out")->required();
+    command->add_option("RECORDING", options.recording, recording_text)->required();
+    command->add_option("--accuracy", options.accuracy, "relative error that is wanted, e.g. 0.02: the shortest window that has it; default: the least error")->type_name("SHARE")->check(CLI::PositiveNumber);
+    add_csv_style(*command, options.csv);
+    command->add_flag("--json", options.json, json_text);
+    command->footer(
+        "Exit code: 0 done, 1 the accuracy is out of reach or the recording determines nothing, 2 a model or a file is at fault.\n\n"
+        "Examples:\n"
+        "  algest design models/rl_circuit.toml examples/rl_circuit/recording.csv\n"
+        "  algest design models/rl_circuit.toml examples/rl_circuit/recording.csv --accuracy 0.05 --json");
     return command;
 }
 
@@ -111,6 +136,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
     command->add_option("RECORDING", options.recording, recording_text)
         ->required();
     command->add_option("-o,--output", options.output, "write every simulated signal")->type_name("FILE.csv");
+    command->add_option("--report", options.report, report_text)->type_name("FILE.html");
     command->add_option("--set", options.set, "a parameter's value, in place of its `initial`")->type_name("NAME=VALUE")->allow_extra_args(false);
     add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
@@ -119,7 +145,8 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
         "Exit code: 0 done, 1 the run diverged, 2 a model or a file is at fault.\n\n"
         "Examples:\n"
         "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv\n"
-        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 -o run.csv");
+        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 -o run.csv\n"
+        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 --report run.html");
     return command;
 }
 
@@ -163,12 +190,14 @@ int parse_and_run(int argc, char** argv, bool json) {
     DeriveOptions derive_options;
     GenerateOptions generate_options;
     ReplayOptions replay_options;
+    DesignOptions design_options;
     SimulateOptions simulate_options;
     DiscoverOptions discover_options;
     const CLI::App* check_command = add_check(app, check_options);
     const CLI::App* derive_command = add_derive(app, derive_options);
     const CLI::App* generate_command = add_generate(app, generate_options);
     const CLI::App* replay_command = add_replay(app, replay_options);
+    const CLI::App* design_command = add_design(app, design_options);
     const CLI::App* simulate_command = add_simulate(app, simulate_options);
     const CLI::App* discover_command = add_discover(app, discover_options);
     if (argc > 1 && argv[1][0] != '-') {
@@ -185,10 +214,12 @@ int parse_and_run(int argc, char** argv, bool json) {
     } catch (const CLI::ParseError& error) {
         return complain(error.what(), "`algest --help` and `algest COMMAND --help` list what there is", json);
     }
+    replay_options.command = simulate_options.command = std::vector<std::string>(argv + 1, argv + argc);
     if (check_command->parsed()) return check(check_options);
     if (derive_command->parsed()) return derive(derive_options);
     if (generate_command->parsed()) return generate(generate_options);
     if (replay_command->parsed()) return replay(replay_options);
+    if (design_command->parsed()) return design(design_options);
     if (simulate_command->parsed()) return simulate(simulate_options);
     if (discover_command->parsed()) return discover(discover_options);
     return exit_bad_input;

@@ -8,7 +8,7 @@
 
 namespace algest::cli {
 
-/// True, with an error in `diagnostics`, if `output` (empty: none) is one of the files that are read.
-bool output_is_input(const std::string& output, const std::vector<std::string>& inputs, Diagnostics& diagnostics);
+/// True, with an error in `diagnostics`, if one of the outputs (empty: none) is a file that is read, or two of them are one file.
+bool outputs_collide(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs, Diagnostics& diagnostics);
 
 }  // namespace algest::cli

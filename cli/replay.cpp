@@ -4,181 +4,93 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <optional>
-#include <vector>
-
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress.hpp"
+#include "cli/replay_answer.hpp"
 #include "generator/generate.hpp"
 #include "lab/discrete_system.hpp"
-#include "lab/recording.hpp"
+#include "lab/replay_report.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {
 
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json number_or_null(std::optional<double> value) {
-    return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+/// The stretch to replay; nullopt, and an error, where the options contradict each other.
+std::optional<lab::Stretch> checked_stretch(const ReplayOptions& options, Diagnostics& diagnostics) {
+    const auto refuse = [&](const std::string& what, const std::string& right) { diagnostics.error("algest replay", {}, what, right); };
+    lab::Stretch stretch;
+    stretch.from = options.from.value_or(stretch.from);
+    stretch.to = options.to.value_or(stretch.to);
+    if (!(stretch.from < stretch.to)) refuse(fmt::format("--from {} is not before --to {}", stretch.from, stretch.to), "two instants of the recording's `t`, in s");
+    const bool writes = !options.output.empty() || !options.report.empty();
+    if (options.batch && writes) refuse("-o and --report show what an estimator says at every sample, and --batch has one answer", "one of the two");
+    if (options.recordings.size() > 1 && (writes || options.batch)) refuse("-o, --report and --batch are of one recording, and there are several", "one recording at a time");
+    if (diagnostics.has_errors()) return std::nullopt;
+    return stretch;
 }
 
-ordered_json candidates_json(const std::vector<lab::EliminationCandidate>& candidates) {
-    ordered_json out = ordered_json::array();
-    for (const lab::EliminationCandidate& c : candidates) {
-        ordered_json values = ordered_json::object();
-        for (const auto& value : c.values) values[value.name] = number_or_null(value.value);
-        out.push_back({{"equations", c.equations}, {"values", std::move(values)}, {"error", number_or_null(c.error)}, {"standing", lab::in_words(c.standing)}});
+/// Runs it, with progress on a terminal.
+std::optional<lab::Replay> run(const ReplayOptions& options, const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, Diagnostics& diagnostics) {
+    constexpr std::size_t deviations_over_time = 500;
+    auto replay = [&] {
+        ProgressLine progress("replay");
+        return lab::replay(plan, recording, stretch, diagnostics, [&](double share) { progress.show(share); });
+    }();
+    if (!replay) return std::nullopt;
+    ProgressLine progress("standard deviations");
+    const bool over_time = !options.output.empty() || !options.report.empty();
+    lab::add_deviations(plan, recording, over_time ? deviations_over_time : 1, *replay, [&](double share) { progress.show(share); });
+    return replay;
+}
+
+/// What -o and --report ask for; false, and an error, where it cannot be made.
+bool write_outputs(const ReplayOptions& options, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary,
+                   Diagnostics& diagnostics) {
+    std::vector<lab::NewFile> files;
+    if (!options.output.empty()) files.push_back({options.output, lab::replay_csv(plan, replay)});
+    if (!options.report.empty()) {
+        Diagnostics said_before;   // by plan_from_model, of the same file
+        const auto model = model::read(options.model, false, said_before);
+        if (!model) return false;
+        const lab::Replayed replayed{plan, *model, recording, replay, summary, generator::derivation_latex(plan)};
+        files.push_back({options.report, lab::replay_report(replayed, {options.model, options.recordings[0], options.command}, lab::gnuplot, diagnostics)});
     }
-    return out;
-}
-
-std::string candidates_text(const std::vector<lab::EliminationCandidate>& candidates) {
-    std::string out;
-    for (const lab::EliminationCandidate& c : candidates) {
-        std::string values;
-        for (const auto& value : c.values) values += fmt::format("{} = {:.6g}, ", value.name, value.value);
-        out += fmt::format("  {}: {}squared error {:.5g}: {}\n", c.equations, values, c.error, lab::in_words(c.standing));
-    }
-    return out.empty() ? out : "\ncandidates:\n" + out;
-}
-
-ordered_json pairs(const std::vector<std::complex<double>>& values) {
-    ordered_json out = ordered_json::array();
-    for (const std::complex<double> x : values) out.push_back({x.real(), x.imag()});
-    return out;
-}
-
-/// What a discrete-time estimator's last values say; nothing where none was ok.
-std::optional<lab::DiscreteSystem> system_of(const plan::Plan& plan, const lab::ReplaySummary& summary) {
-    if (!plan.discrete || !summary.condition_last) return std::nullopt;
-    std::vector<double> last;
-    for (const std::optional<double> value : summary.last) last.push_back(value.value_or(std::nan("")));
-    return lab::discrete_system(plan, last);
-}
-
-void add_system(const plan::Plan& plan, const lab::ReplaySummary& summary, ordered_json& out) {
-    const auto system = system_of(plan, summary);
-    out["poles_s"] = system ? pairs(system->poles_s) : ordered_json(nullptr);
-    if (!system) return;
-    out["poles_z"] = pairs(system->poles_z);
-    out["zeros_z"] = pairs(system->zeros_z);
-    out["z"] = {{"a", system->a}, {"b", system->b}};
-    out["q"] = {{"A", system->A}, {"B", system->B}};
-}
-
-ordered_json summary_json(const ReplayOptions& options, const plan::Plan& plan, const lab::ReplaySummary& summary,
-                          const lab::Replay& replay) {
-    ordered_json parameters = ordered_json::array();
-    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
-        parameters.push_back({{"name", plan.parameters[p].name},
-                              {"unit", plan.parameters[p].unit},
-                              {"last", number_or_null(summary.last[p])},
-                              {"median", number_or_null(summary.median[p])},
-                              {"sd", number_or_null(summary.deviation[p])}});
-    }
-    ordered_json status = ordered_json::object();
-    for (std::size_t s = 0; s < summary.count.size(); ++s) status[name(static_cast<Status>(s))] = summary.count[s];
-    ordered_json out = {{"model", options.model},
-            {"recording", options.recording},
-            {"samples", replay.samples()},
-            {"period_s", plan.period},
-            {"parameters", std::move(parameters)},
-            {"status", std::move(status)},
-            {"condition",
-             {{"median", number_or_null(summary.condition_median)}, {"last", number_or_null(summary.condition_last)}}}};
-    if (plan.steady) out["operating_points"] = replay.points.count();
-    if (plan.elimination) out["candidates"] = candidates_json(replay.candidates);
-    if (plan.discrete) add_system(plan, summary, out);
-    return out;
-}
-
-std::string number_text(std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : "-"; }
-
-/// Continuous-time poles, one a line.
-std::string poles_text(const plan::Plan& plan, const lab::ReplaySummary& summary) {
-    const auto system = system_of(plan, summary);
-    std::string out = system ? "\npoles [rad/s]\n" : "";
-    for (const std::complex<double> s : system ? system->poles_s : std::vector<std::complex<double>>()) out += fmt::format("{:>12.6g}  {:>+12.6g} i\n", s.real(), s.imag());
-    return out;
-}
-
-std::string summary_text(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary) {
-    std::size_t width = std::string("parameter").size();
-    for (const plan::Parameter& p : plan.parameters) width = std::max(width, p.name.size());
-    const bool deviations = std::any_of(summary.deviation.begin(), summary.deviation.end(), [](const auto& d) { return d.has_value(); });
-    const auto sd = [&](const std::string& text) { return deviations ? fmt::format("{:>12}  ", text) : std::string(); };
-    std::string out = fmt::format("{:<{}}  {:>12}  {}{:>12}  {}\n", "parameter", width, "last", sd("sd"), "median", "unit");
-    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
-        out += fmt::format("{:<{}}  {:>12}  {}{:>12}  {}\n", plan.parameters[p].name, width, number_text(summary.last[p]),
-                           sd(number_text(summary.deviation[p])), number_text(summary.median[p]), plan.parameters[p].unit);
-    }
-    out += fmt::format("\n{} samples, {:.6g} s to {:.6g} s:", replay.samples(), replay.t.front(), replay.t.back());
-    for (std::size_t s = 0; s < summary.count.size(); ++s) {
-        out += fmt::format("{} {} {}", s == 0 ? "" : ",", name(static_cast<Status>(s)), summary.count[s]);
-    }
-    out += fmt::format("\ncondition: median {}, last {}\n", number_text(summary.condition_median),
-                       number_text(summary.condition_last));
-    out += poles_text(plan, summary);
-    if (plan.steady) out += fmt::format("{} operating points\n", replay.points.count());
-    return out + candidates_text(replay.candidates);
+    return lab::write_files(files, diagnostics);
 }
 
 }  // namespace
 
+plan::Scalar scalar_of(const ReplayOptions& options) { return options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64; }
+
 int replay(const ReplayOptions& options) {
     Diagnostics diagnostics;
-    if (output_is_input(options.output, {options.model, options.recording}, diagnostics)) return fail(diagnostics, options.json);
-    lab::Stretch stretch;
-    stretch.from = options.from.value_or(stretch.from);
-    stretch.to = options.to.value_or(stretch.to);
-    if (!(stretch.from < stretch.to)) {
-        diagnostics.error("algest replay", {}, fmt::format("--from {} is not before --to {}", stretch.from, stretch.to),
-                          "two instants of the recording's `t`, in s");
-        return fail(diagnostics, options.json);
-    }
-    if (options.batch && !options.output.empty()) {
-        diagnostics.error("algest replay", {}, "-o writes what an estimator says at every sample, and --batch has one answer", "one of the two");
-        return fail(diagnostics, options.json);
-    }
-    if (options.batch) return replay_batch(options, stretch);
+    std::vector<std::string> inputs = options.recordings;
+    inputs.push_back(options.model);
+    if (outputs_collide({options.output, options.report}, inputs, diagnostics)) return fail(diagnostics, options.json);
+    const auto stretch = checked_stretch(options, diagnostics);
+    if (!stretch) return fail(diagnostics, options.json);
+    if (options.batch) return replay_batch(options, *stretch);
+    if (options.recordings.size() > 1) return replay_several(options, *stretch);
 
-    const auto plan = generator::plan_from_model(options.model, {options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64, {}}, diagnostics);
-    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv);
+    const auto plan = generator::plan_from_model(options.model, {scalar_of(options), {}}, diagnostics);
+    const auto recording = lab::read_recording(options.recordings[0], diagnostics, options.csv);
     if (!plan || !recording) return fail(diagnostics, options.json);
     for (const std::string& text : plan->notes) diagnostics.note(options.model, text);
-
-    auto replay = [&] {
-        ProgressLine progress("replay");
-        return lab::replay(*plan, *recording, stretch, diagnostics, [&](double share) { progress.show(share); });
-    }();
-    if (replay) {
-        constexpr std::size_t deviations_in_csv = 500;
-        ProgressLine progress("standard deviations");
-        lab::add_deviations(*plan, *recording, options.output.empty() ? 1 : deviations_in_csv, *replay, [&](double share) { progress.show(share); });
-    }
+    const auto replay = run(options, *plan, *recording, *stretch, diagnostics);
     if (!replay) return fail(diagnostics, options.json);
     if (const auto advice = lab::advice_on_domain(*plan, *replay)) diagnostics.note(options.model, *advice);
-    if (!options.output.empty() && !lab::write_file(options.output, lab::replay_csv(*plan, *replay), diagnostics)) {
-        return fail(diagnostics, options.json);
-    }
-    print_diagnostics(diagnostics);
-    if (!options.output.empty()) note("wrote " + options.output);
-
     const lab::ReplaySummary summary = lab::summarise(*replay);
+    if (!write_outputs(options, *plan, *recording, *replay, summary, diagnostics)) return fail(diagnostics, options.json);
+    print_diagnostics(diagnostics);
+    for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
+
     const bool answered = summary.count[static_cast<std::size_t>(Status::ok)] > 0;
     if (const auto missing = lab::what_is_missing(*plan, replay->points, answered)) note(*missing);
-    if (options.json) {
-        print_json(summary_json(options, *plan, summary, *replay));
-    } else {
-        print(summary_text(*plan, *replay, summary));
-    }
+    if (options.json) print_json(replay_json(options.model, options.recordings[0], *plan, *replay, summary));
+    else print(replay_text(*plan, *replay, summary));
     return exit_done;
 }
 

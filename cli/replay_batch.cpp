@@ -29,7 +29,7 @@ ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, co
     ordered_json confusions = ordered_json::array();
     for (const lab::Confusion& c : batch.confusions) confusions.push_back({{"unknowns", c.unknowns}, {"hardly", c.hardly}, {"text", c.text}});
     return {{"model", options.model},
-            {"recording", options.recording},
+            {"recording", options.recordings[0]},
             {"samples", batch.samples},
             {"uniform", batch.uniform},
             {"instants", batch.instants},
@@ -57,7 +57,7 @@ std::string batch_text(const plan::Plan& plan, const lab::Batch& batch) {
 int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch) {
     Diagnostics diagnostics;
     const auto plan = generator::plan_from_model(options.model, {}, diagnostics);
-    const auto recording = lab::read_recording(options.recording, diagnostics, options.csv, lab::TimeBase::increasing);
+    const auto recording = lab::read_recording(options.recordings[0], diagnostics, options.csv, lab::TimeBase::increasing);
     if (!plan || !recording) return fail(diagnostics, options.json);
     const auto batch = lab::batch(*plan, *recording, stretch, diagnostics);
     if (!batch) return fail(diagnostics, options.json);

@@ -14,6 +14,7 @@
 #include "cli/messages.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress.hpp"
+#include "lab/simulate_report.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {
@@ -63,7 +64,7 @@ std::string outputs_text(const model::Model& model, const std::vector<lab::Outpu
 
 int simulate(const SimulateOptions& options) {
     Diagnostics diagnostics;
-    if (output_is_input(options.output, {options.model, options.recording}, diagnostics)) return fail(diagnostics, options.json);
+    if (outputs_collide({options.output, options.report}, {options.model, options.recording}, diagnostics)) return fail(diagnostics, options.json);
     const auto set = settings(options.set, diagnostics);
     if (!set) return fail(diagnostics, options.json);
     const auto model = model::read(options.model, false, diagnostics);
@@ -77,11 +78,16 @@ int simulate(const SimulateOptions& options) {
         ProgressLine progress("simulate");
         return lab::free_run(bench->system, *parameters, bench->initial, bench->drive, bench->options, [&](double share) { progress.show(share); });
     }();
-    if (!options.output.empty() && !lab::write_file(options.output, lab::run_csv(*model, *recording, run), diagnostics)) {
-        return fail(diagnostics, options.json);
+    std::vector<lab::NewFile> files;
+    if (!options.output.empty()) files.push_back({options.output, lab::run_csv(*model, *recording, run)});
+    if (!options.report.empty()) {
+        lab::Simulation simulation{*model, *recording, *bench, *parameters, {}, run};
+        for (const auto& [name, value] : *set) simulation.given.insert(name);
+        files.push_back({options.report, lab::simulate_report(simulation, {options.model, options.recording, options.command}, lab::gnuplot, diagnostics)});
     }
+    if (!lab::write_files(files, diagnostics)) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);
-    if (!options.output.empty()) note("wrote " + options.output);
+    for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
     if (run.samples < recording->samples()) {
         const std::string what = fmt::format("the free run diverges after {:.6g} s", recording->t[run.samples - 1]);
         const std::string right = "check signs and parameters; an unstable plant needs its [[feedback]] law";

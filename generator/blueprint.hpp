@@ -4,9 +4,11 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "algest/estimator.hpp"
+#include "algest/growing_moments.hpp"
 #include "generator/elimination_data.hpp"
 #include "generator/plan.hpp"
 
@@ -73,6 +75,8 @@ struct BlueprintData {
     std::vector<S> whiten_at;
     algest::LowPass<S> ratio;
     bool normalise;
+    bool rows_published;
+    int shortest;
     EliminationData<S> elimination = {};
 
     /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
@@ -89,7 +93,9 @@ struct BlueprintData {
                 ratio,
                 row_set(perturbation),
                 normalise,
-                elimination.view()};
+                elimination.view(),
+                rows_published,
+                shortest};
     }
 
 private:
@@ -103,6 +109,46 @@ private:
                 {of.terms.data(), static_cast<int>(of.terms.size())}};
     }
 };
+
+/// The arrays behind a MomentSet; A: what moments are summed in.
+template <class S, class A>
+struct MomentData {
+    int degree;
+    S step;
+    std::vector<unsigned char> degrees;
+    std::vector<A> coefficients;
+    std::vector<algest::WindowEnds<S>> ends;
+    std::vector<double> growing;
+    std::vector<double> growing_newest;
+    std::vector<unsigned char> derivatives;   ///< empty: windows do not grow
+
+    /// Valid until this object changes, moves or ends. Cost: none.
+    algest::MomentSet<S, A> view() const {
+        return {degree, step, {degrees.data(), static_cast<int>(degrees.size())}, {coefficients.data(), static_cast<int>(coefficients.size())}, {ends.data(), static_cast<int>(ends.size())}};
+    }
+    algest::GrowingSet growing_view() const {
+        return {{growing.data(), static_cast<int>(growing.size())}, {growing_newest.data(), static_cast<int>(growing_newest.size())}, {derivatives.data(), static_cast<int>(derivatives.size())}};
+    }
+};
+
+/// The plan must have moments, with accumulators of type A.
+template <class S, class A>
+MomentData<S, A> make_moments(const Plan& plan) {
+    MomentData<S, A> data{plan.moments->degree, static_cast<S>(plan.moments->step), {}, {}, {}, {}, {}, {}};
+    for (const int degree : plan.moments->degrees) data.degrees.push_back(static_cast<unsigned char>(degree));
+    for (const MomentTable& table : plan.moments->tables) {
+        for (std::size_t k = 0; k < table.coefficients.size(); ++k) {
+            if constexpr (std::is_same_v<A, double>) data.coefficients.push_back(table.coefficients[k]);
+            else data.coefficients.push_back({static_cast<S>(table.coefficients[k]), static_cast<S>(table.rests[k])});
+        }
+        data.ends.push_back({static_cast<S>(table.oldest), static_cast<S>(table.newest), static_cast<S>(table.of_one), static_cast<S>(table.gain), table.degree});
+        if (plan.moments->shortest == 0) continue;
+        data.growing.insert(data.growing.end(), table.growing.begin(), table.growing.end());
+        data.growing_newest.insert(data.growing_newest.end(), table.growing_newest.begin(), table.growing_newest.end());
+        data.derivatives.push_back(static_cast<unsigned char>(table.derivative));
+    }
+    return data;
+}
 
 /// Numbers of the plan are already rounded to its scalar, so converting them to that scalar changes nothing.
 template <class S>
@@ -124,7 +170,9 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
                           {},
                           {},
                           {},
-                          plan.normalise};
+                          plan.normalise,
+                          plan.moments.has_value(),
+                          plan.moments ? plan.moments->shortest : 0};
     data.tables.reserve(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
     for (const Table& table : plan.tables) {
         for (const double weight : table.weights) data.tables.push_back(static_cast<S>(weight));

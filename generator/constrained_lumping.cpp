@@ -153,18 +153,7 @@ private:
         Span span;
         span.add(span.reduce(constant(1, variables_)), 1);
         each_term(equations, [&](int e, int k, const Polynomial& coefficient) {
-            Span::Reduced reduced = span.reduce(coefficient);
-            if (!reduced.rest.empty()) {
-                const Rational scale = content(reduced.rest);
-                out.meaning.push_back(scaled(reduced.rest, 1 / scale));
-                span.add(reduced, scale);
-                reduced.over.push_back(scale);
-            }
-            LumpedTerm term{k, reduced.over[0], {}};
-            for (std::size_t g = 1; g < reduced.over.size(); ++g) {
-                if (!cln::zerop(reduced.over[g])) term.unknown.emplace_back(static_cast<int>(g - 1), reduced.over[g]);
-            }
-            out.terms.push_back(term);
+            out.terms.push_back(lumped_term(k, span.express(coefficient, out.meaning)));
             out.equations.push_back(e);
         });
         return out;

@@ -27,12 +27,6 @@ namespace {
 using exact::Rational;
 using plan::Plan;
 
-kernel::Coefficients coefficients(const std::vector<std::string>& texts) {
-    kernel::Coefficients out;
-    for (const std::string& t : texts) out.push_back(exact::from_text(t));
-    return out;
-}
-
 /// Lowest power first in the list; the printed polynomial has the highest first, as Polynomial orders it.
 Polynomial in_sigma(const std::vector<std::string>& kernel) {
     Polynomial out;
@@ -399,7 +393,7 @@ std::vector<double> weights_of(const Plan& plan, const plan::RowTerm& t) {
         return out;
     }
     const plan::Hold hold = t.signal < 0 ? plan::Hold::linear : plan.window_signals[static_cast<std::size_t>(t.signal)].hold;
-    return kernel::weights(coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar);
+    return kernel::weights(kernel::coefficients(t.kernel), plan.intervals, hold, plan.quadrature, plan.scalar);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ struct Walk {
     Unit call(const Formula& f) const {
         const Formula& x = f->arguments[0];
         if (f->name == "der") {
-            const int order = f->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(f->arguments[1]->value)) : 1;
+            const int order = formula::derivative_order(f);
             return of(x).over(Unit::parse("s")->power(order));
         }
         const Unit unit = of(x);

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algest/boxcar.hpp"
-#include "algest/delay_line.hpp"
-#include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
-#include "generator/elimination_text.hpp"
+#include "generator/cost.hpp"
 #include "generator/cpp_text.hpp"
+#include "generator/elimination_text.hpp"
 #include "generator/exact.hpp"
 #include "generator/generate.hpp"
 #include "generator/plan_hash.hpp"
@@ -24,6 +22,10 @@ namespace {
 
 using plan::Op;
 using plan::Plan;
+
+std::string accumulator_name(const Plan& plan) {
+    return plan.moments->accumulators == plan::Accumulators::float64 ? "double" : "Twofold<" + scalar_name(plan.scalar) + ">";
+}
 
 std::string solve_name(const Plan& plan) {
     switch (plan.solve) {
@@ -115,42 +117,6 @@ private:
     DataList lines_;
 };
 
-/// Scalars and bytes of one instance, as the class lays them out (estimator.hpp.mustache).
-int instance_bytes(const Plan& plan) {
-    const int unknowns = static_cast<int>(plan.lumped.size());
-    const int signals = plan.rings();
-    int scalars = ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + sum_scalars(plan.solve, unknowns, plan.solve_instants) +
-                  published_scalars(plan.solve, unknowns);
-    scalars += 2 + static_cast<int>(plan.parameters.size());   // Estimate: status padded to a scalar, condition, parameters
-    if (plan.whiten) scalars += unknowns;
-    if (plan.ratio) scalars += ratio_scalars(true, unknowns);
-    int bytes = static_cast<int>(sizeof(Progress));
-    if (plan.decimate > 1) {
-        scalars += boxcar_scalars(signals);
-        bytes += static_cast<int>(sizeof(BoxcarProgress));
-    }
-    if (plan.steady) {
-        scalars += steady_scalars(static_cast<int>(plan.steady->averaged.size()));
-        bytes += static_cast<int>(sizeof(SteadyProgress)) + 8;
-    }
-    if (plan.delayed()) {
-        scalars += static_cast<int>(plan.inputs.size());
-        for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
-        bytes += 8;
-    }
-    if (plan.longest_wait() > 0) {
-        scalars += (plan.longest_wait() + 1) * static_cast<int>(plan.inputs.size());
-        bytes += 8;
-    }
-    if (!plan.past.empty()) {
-        scalars += static_cast<int>(plan.delayed_inputs().size()) * plan.delay_length();
-        bytes += static_cast<int>(sizeof(DelayProgress));
-    }
-    bytes += scalars * scalar_bytes(plan.scalar);
-    const int alignment = scalar_bytes(plan.scalar);
-    return (bytes + alignment - 1) / alignment * alignment;
-}
-
 Data head(const Plan& plan, const std::string& hash) {
     Data d;
     d.set("version", std::string(ALGEST_VERSION));
@@ -161,6 +127,13 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("source", plan.source);
     d.set("has_source", !plan.source.empty());
     d.set("scalar", scalar_name(plan.scalar));
+    d.set("engine", std::string(plan.moments ? "moments" : "fir"));
+    d.set("moments", plan.moments.has_value());
+    d.set("windows", plan.name + (plan.moments ? "_tables::moment_blueprint, memory(), moments()" : "_tables::blueprint, memory()"));
+    d.set("accumulators", plan.moments ? std::string(accumulator_name(plan)) : "");
+    d.set("twofold", plan.moments && plan.moments->accumulators == plan::Accumulators::twofold);
+    d.set("growing", plan.moments && plan.moments->shortest > 0);
+    d.set("degree", plan.moments ? std::to_string(plan.moments->degree) : "");
     d.set("solve", solve_name(plan));
     d.set("quadrature", quadrature_name(plan));
     d.set("hash", hash);
@@ -192,15 +165,10 @@ Data head(const Plan& plan, const std::string& hash) {
 
 void set_cost(const Plan& plan, Data& d) {
     const auto blueprint = plan::make_blueprint<double>(plan);
-    const auto multiply_adds = [&](const plan::RowData<double>& rows) {
-        int dots = 0;
-        for (const Functional& f : rows.functionals) dots += f.table != no_table ? 1 : 0;
-        return dots * plan.samples();
-    };
-    const int macs = multiply_adds(blueprint.rows);
+    const Cost cost = cost_of(plan);
     const bool square = plan.solve == Solve::square;
-    d.set("push_macs", std::to_string(square ? 0 : macs));
-    d.set("estimate_macs", std::to_string((square ? macs : 0) + multiply_adds(blueprint.perturbation)));
+    d.set("push_macs", std::to_string(cost.push));
+    d.set("estimate_macs", std::to_string(cost.estimate));
     const int rows = static_cast<int>(plan.rows.size());
     const int unknowns = static_cast<int>(plan.lumped.size());
     if (plan.uncertain()) {
@@ -211,14 +179,14 @@ void set_cost(const Plan& plan, Data& d) {
         }
         const long samples = static_cast<long>(plan.samples()) * node_count(plan.solve_instants);
         const long noisy = static_cast<long>(blueprint.noisy.size());
-        d.set("uncertainty_macs", std::to_string(samples * (noisy_terms + noisy * rows * unknowns * (unknowns + 1)) + (square ? macs : macs * node_count(plan.solve_instants))));
+        d.set("uncertainty_macs", std::to_string(samples * (noisy_terms + noisy * rows * unknowns * (unknowns + 1)) + cost.rows * (square ? 1 : node_count(plan.solve_instants))));
         d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan.scalar)));
         d.set("whiten_macs", std::to_string(static_cast<long>(plan.samples()) * (noisy_terms + noisy * rows * (rows + unknowns))));
     }
     d.set("spare", std::to_string(spare_samples));
-    d.set("overtaken", std::to_string(square ? spare_samples : published_slots - 1));
-    d.set("size", std::to_string(instance_bytes(plan)));
-    d.set("table_bytes", std::to_string(static_cast<int>(plan.tables.size()) * plan.samples() * scalar_bytes(plan.scalar)));
+    d.set("overtaken", std::to_string(square && !plan.moments ? spare_samples : published_slots - 1));
+    d.set("size", std::to_string(cost.instance_bytes));
+    d.set("table_bytes", std::to_string(cost.table_bytes));
     const int first_ok = plan.samples_to_first_estimate();
     d.set("first_ok", std::to_string(first_ok));
     d.set("first_ok_s", exact::decimal(exact::from_text(plan.period_text) * (first_ok - 1)));
@@ -423,8 +391,50 @@ std::string joined(const std::vector<double>& numbers, const Plan& plan) {
     return out;
 }
 
+/// Literals of type double, whatever the plan's scalar.
+std::string doubles(const std::vector<double>& numbers) {
+    std::string out;
+    for (const double x : numbers) out += (out.empty() ? "" : ", ") + exact::hexadecimal(x);
+    return out;
+}
+
+/// Literals of Twofold, or of double where there are no rests.
+std::string accumulators(const plan::MomentTable& table, const Plan& plan) {
+    if (table.rests.empty()) return doubles(table.coefficients);
+    std::string out;
+    for (std::size_t k = 0; k < table.rests.size(); ++k) out += (k == 0 ? "{" : ", {") + literal(table.coefficients[k], plan.scalar) + ", " + literal(table.rests[k], plan.scalar) + "}";
+    return out;
+}
+
+/// The numbers of windowed moments, by table.
+void set_moments(const Plan& plan, Data& d) {
+    DataList list;
+    for (std::size_t t = 0; t < plan.tables.size(); ++t) {
+        const plan::MomentTable& table = plan.moments->tables[t];
+        Data i;
+        i.set("table_name", plan.tables[t].name);
+        i.set("coefficients", accumulators(table, plan));
+        i.set("growing", doubles(table.growing));
+        i.set("growing_newest", doubles(table.growing_newest));
+        i.set("derivative", std::to_string(table.derivative));
+        i.set("ends", joined({table.oldest, table.newest, table.of_one, table.gain}, plan) + ", " + std::to_string(table.degree));
+        list.push_back(i);
+    }
+    d.set("moment_tables", listed(list));
+    d.set("table_count", std::to_string(plan.tables.size()));
+    d.set("coefficient_count", std::to_string(plan.tables.size() * static_cast<std::size_t>(plan.moments->degree + 1)));
+    std::string degrees;
+    for (const int degree : plan.moments->degrees) degrees += (degrees.empty() ? "" : ", ") + std::to_string(degree);
+    d.set("degrees", degrees);
+    const std::size_t count = static_cast<std::size_t>(plan.moments->degree) + 1;
+    d.set("growing_count", std::to_string(plan.tables.size() * count * count));
+    d.set("shortest", std::to_string(plan.moments->shortest));
+    d.set("step", literal(plan.moments->step, plan.scalar));
+}
+
 std::string tables_header(const Plan& plan, const std::string& hash) {
     Data d = head(plan, hash);
+    if (plan.moments) set_moments(plan, d);
     DataList tables;
     for (const plan::Table& table : plan.tables) {
         std::string kernel;
@@ -436,7 +446,9 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
         tables.push_back(t);
     }
     d.set("tables", listed(tables));
-    d.set("weight_count", std::to_string(plan.tables.size() * static_cast<std::size_t>(plan.samples())));
+    const std::string weights = std::to_string(plan.tables.size() * static_cast<std::size_t>(plan.samples()));
+    d.set("weight_count", weights);
+    d.set("weights_view", plan.moments ? "{nullptr, 0}" : "{weights, " + weights + "}");
 
     const auto blueprint = plan::make_blueprint<double>(plan);
     set_rows(plan, blueprint.rows, "", d);

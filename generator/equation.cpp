@@ -142,7 +142,7 @@ private:
             out.parameters = out.parameters || model_.parameter(f->name) != nullptr;
             if (signal >= 0 && std::find(out.which.begin(), out.which.end(), signal) == out.which.end()) out.which.push_back(signal);
         }
-        out.derivative = out.derivative || (f->kind == Kind::call && f->name == "der");
+        out.derivative = out.derivative || (formula::is_derivative(f));
         for (const Formula& a : f->arguments) add_contents(a, out);
     }
 
@@ -184,8 +184,8 @@ private:
     }
 
     void check_orders(const Formula& f) {
-        if (f->kind == Kind::call && f->name == "der") {
-            if (f->arguments.size() > 1 && f->arguments[1]->value != 1) {
+        if (formula::is_derivative(f)) {
+            if (formula::derivative_order(f) > 1) {
                 fail(f, "a derivative of order above 1 inside a nonlinearity", "measure it, or write the equation without it");
             }
             return;
@@ -235,7 +235,7 @@ private:
 
     ex call(const Formula& f) {
         if (f->name != "der") return function_atom(f, false);
-        const int order = f->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(f->arguments[1]->value)) : 1;
+        const int order = formula::derivative_order(f);
         const int signal = model_.signal_index(f->arguments[0]->name);
         const std::string name = f->arguments[0]->name;
         const std::string spelling = order == 1 ? "der(" + name + ")" : "der(" + name + "," + std::to_string(order) + ")";

@@ -173,6 +173,14 @@ double nearest(const Rational& value, plan::Scalar scalar) {
     return nearest(cln::numerator(value), cln::denominator(value), scalar);
 }
 
+TwoParts nearest_two(const Rational& value, plan::Scalar scalar) {
+    const double high = nearest(value, scalar);
+    int exponent = 0;
+    const double mantissa = std::frexp(high, &exponent);
+    const Rational exactly = Rational(static_cast<long>(std::ldexp(mantissa, 53))) * power(Rational(2), exponent - 53);
+    return {high, nearest(value - exactly, scalar)};
+}
+
 std::string hexadecimal(double value) {
     std::string out;
     append_hexadecimal(value, out);

@@ -45,6 +45,13 @@ float nearest_float(const Integer& numerator, const Integer& denominator);
 double nearest(const Rational& value, plan::Scalar scalar);
 double nearest(const Integer& numerator, const Integer& denominator, plan::Scalar scalar);
 
+/// The two numbers of the scalar whose sum is nearest: the nearest, and the nearest to what it leaves. The value must be in the scalar's range.
+struct TwoParts {
+    double high;
+    double low;
+};
+TwoParts nearest_two(const Rational& value, plan::Scalar scalar);
+
 /// "0x1.8p-3": every double has one such text; denormals have a leading 1 and a smaller exponent, zero is "0x0p+0".
 std::string hexadecimal(double value);
 void append_hexadecimal(double value, std::string& out);

@@ -310,6 +310,8 @@ std::string latex_printed(const Formula& f, int outer) {
 bool is_function_of_two(std::string_view name) { return name == "min" || name == "max"; }
 
 bool is_call(const Formula& f, std::string_view name) { return f->kind == Kind::call && f->name == name; }
+bool is_derivative(const Formula& f) { return is_call(f, "der"); }
+int derivative_order(const Formula& der) { return der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1; }
 
 bool is_function(std::string_view name) { return std::find(functions.begin(), functions.end(), name) != functions.end(); }
 

@@ -50,6 +50,9 @@ bool is_function_of_two(std::string_view name);
 
 /// True for a call of `name`.
 bool is_call(const Formula& f, std::string_view name);
+bool is_derivative(const Formula& f);
+/// n of der(x, n); 1 of der(x).
+int derivative_order(const Formula& der);
 
 /// Parses an expression; one complaint and nullopt if it is none.
 std::optional<Formula> parse(std::string_view text, const Complain& complain);

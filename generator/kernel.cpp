@@ -74,13 +74,6 @@ exact::WideIntegers difference_values(const IndexPolynomial& p, std::size_t orde
     return exact::sequence({all.begin() + static_cast<std::ptrdiff_t>(order), all.end()}, count, bits_of_values(p, intervals));
 }
 
-/// The antiderivative that vanishes at 0.
-Coefficients antiderivative(const Coefficients& p) {
-    Coefficients out = {0};
-    for (std::size_t k = 0; k < p.size(); ++k) out.push_back(p[k] / static_cast<int>(k + 1));
-    return out;
-}
-
 Rational at_one(const Coefficients& p) {
     Rational out = 0;
     for (const Rational& c : p) out = out + c;
@@ -136,6 +129,18 @@ Fractions exact_weights(const Coefficients& kernel, int intervals, plan::Hold ho
 }
 
 }  // namespace
+
+Coefficients coefficients(const std::vector<std::string>& texts) {
+    Coefficients out;
+    for (const std::string& c : texts) out.push_back(exact::from_text(c));
+    return out;
+}
+
+Coefficients antiderivative(const Coefficients& p) {
+    Coefficients out = {0};
+    for (std::size_t k = 0; k < p.size(); ++k) out.push_back(p[k] / static_cast<int>(k + 1));
+    return out;
+}
 
 std::vector<double> weights(const Coefficients& kernel, int intervals, plan::Hold hold, plan::Quadrature quadrature, plan::Scalar scalar) {
     const Fractions fractions = exact_weights(kernel, intervals, hold, quadrature);

@@ -11,6 +11,9 @@ namespace algest::kernel {
 /// Coefficients, lowest power first.
 using Coefficients = std::vector<exact::Rational>;
 
+/// Reads what a plan's table holds.
+Coefficients coefficients(const std::vector<std::string>& texts);
+
 /// Integrals of the kernel against M+1 samples at sigma = 0, 1/M, ..., 1, oldest first, each the nearest number of the scalar.
 ///
 /// zoh: sample m counts on [m/M, (m+1)/M), so the newest has weight 0. linear: the interpolant through the samples is
@@ -20,6 +23,9 @@ std::vector<double> weights(const Coefficients& kernel, int intervals, plan::Hol
 
 /// The integral of the kernel over [0,1] by the same rule: what the functional of the constant 1 is.
 exact::Rational integral(const Coefficients& kernel, int intervals, plan::Hold hold, plan::Quadrature quadrature);
+
+/// The antiderivative that vanishes at 0.
+Coefficients antiderivative(const Coefficients& p);
 
 /// The integral of its square over [0,1].
 exact::Rational square_norm(const Coefficients& kernel);

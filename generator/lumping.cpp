@@ -155,18 +155,7 @@ private:
         Span span;
         span.add(span.reduce(out.denominator), 1);
         each_term(c, [&](int e, int k, const Term& term) {
-            Span::Reduced reduced = span.reduce(product(term.coefficient, others(leading(e))));
-            if (!reduced.rest.empty()) {
-                const Rational scale = content(reduced.rest);
-                out.unknowns.push_back(scaled(reduced.rest, 1 / scale));
-                span.add(reduced, scale);
-                reduced.over.push_back(scale);
-            }
-            LumpedTerm lumped{k, reduced.over[0], {}};
-            for (std::size_t g = 1; g < reduced.over.size(); ++g) {
-                if (!cln::zerop(reduced.over[g])) lumped.unknown.emplace_back(static_cast<int>(g - 1), reduced.over[g]);
-            }
-            out.terms.push_back(lumped);
+            out.terms.push_back(lumped_term(k, span.express(product(term.coefficient, others(leading(e))), out.unknowns)));
             out.equations.push_back(e);
         });
         return out;
@@ -442,6 +431,14 @@ private:
 };
 
 }  // namespace
+
+LumpedTerm lumped_term(int term, const std::vector<Rational>& over) {
+    LumpedTerm out{term, over[0], {}};
+    for (std::size_t g = 1; g < over.size(); ++g) {
+        if (!cln::zerop(over[g])) out.unknown.emplace_back(static_cast<int>(g - 1), over[g]);
+    }
+    return out;
+}
 
 std::optional<Lumping> lump(const model::Model& model, const std::vector<OperatorForm>& forms, Diagnostics& diagnostics) {
     if (model.estimator.solve == model::Solver::elimination) return lump_constrained(model, forms, diagnostics);

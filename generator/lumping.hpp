@@ -17,6 +17,9 @@ struct LumpedTerm {
     std::vector<std::pair<int, exact::Rational>> unknown;   ///< index into Lumping::unknowns, factor
 };
 
+/// over: the coefficient as a combination of what is known and the unknowns, in that order.
+LumpedTerm lumped_term(int term, const std::vector<exact::Rational>& over);
+
 /// An unknown of the rows.
 struct Unknown {
     std::string name;       ///< Gamma1, Gamma2, ...; a parameter's own name where it is that parameter

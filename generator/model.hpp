@@ -106,6 +106,8 @@ struct Estimator {
     std::vector<Mention> stages;            ///< elimination: equations in the order in which they are solved; empty: all at once
     Mention stretches;                      ///< average: the signal that numbers the stretches to be averaged; no name: steady ones are looked for
     std::string engine = "fir";
+    Position engine_at;                     ///< of the section where no engine is given
+    plan::Accumulators accumulators = plan::Accumulators::twofold;   ///< of single-precision moments
     plan::Quadrature quadrature = plan::Quadrature::exact;
 
     /// True: rows are integrals or means over [sampling] window. False: an equation has one row an instant.
@@ -152,6 +154,7 @@ struct Model {
     Position window_at;
     int decimate = 1;                 ///< periods that one sample of a window is the mean over
     bool growing = false;
+    Position growing_at;
 
     /// Between samples of a window, s; needs a period.
     Rational window_period() const { return *period * decimate; }

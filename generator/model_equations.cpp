@@ -59,7 +59,7 @@ bool names_exist(const Formula& f, const std::vector<Position>& places, Reading&
         const bool declared = model.signal(f->name) != nullptr || model.constant(f->name) != nullptr || model.parameter(f->name) != nullptr;
         return declared || unknown_name(f, places, reading);
     }
-    if (f->kind == formula::Kind::call && f->name == "der") {
+    if (formula::is_derivative(f)) {
         const Formula& x = f->arguments[0];
         if (x->kind != formula::Kind::name || (model.signal(x->name) == nullptr && names_exist(x, places, reading))) {
             reading.file.error(place_of(x->start, places), "der() of something that is not a signal", "write der(x) of a signal x; expand products by hand");
@@ -183,7 +183,7 @@ bool of_measured_signals(const Formula& f, const std::vector<Position>& places, 
         reading.file.error(place_of(f->start, places), what, right);
         return false;
     };
-    if (f->kind == formula::Kind::call && f->name == "der") return refuse("der() in a computed signal", "differentiate the computed signal in the equation: der(NAME)");
+    if (formula::is_derivative(f)) return refuse("der() in a computed signal", "differentiate the computed signal in the equation: der(NAME)");
     if (f->kind == formula::Kind::call && f->name == "delay") return refuse("delay() in a computed signal", "feed the delayed samples as a signal of their own");
     if (f->kind == formula::Kind::name) {
         const Signal* signal = reading.model.signal(f->name);

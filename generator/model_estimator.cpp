@@ -146,9 +146,7 @@ void read_sampling(const toml::table& root, Reading& reading) {
     if (t->contains("window")) model.window_at = position(*t->get("window"));
     model.decimate = reading.file.whole(*t, "decimate", 1, largest_decimation).value_or(1);
     model.growing = reading.file.boolean(*t, "growing").value_or(false);
-    if (model.growing) {
-        reading.file.error(*t->get("growing"), "a growing window is not supported by this version", "leave it out: the window then slides from the start");
-    }
+    if (model.growing) model.growing_at = position(*t->get("growing"));
     if (model.period && model.window) check_window(reading);
 }
 
@@ -156,7 +154,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
     const toml::table* t = reading.file.subtable(root, "estimator");
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "quadrature", "forgetting", "condition_limit", "deviation_limit", "uncertainty", "whiten",
+    file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "accumulators", "quadrature", "forgetting", "condition_limit", "deviation_limit", "uncertainty", "whiten",
                           "ratio_filter", "stages", "stretches"});
     Estimator& e = reading.model.estimator;
     e.given = true;
@@ -168,6 +166,8 @@ void read_estimator(const toml::table& root, Reading& reading) {
                         {{"square", Solver::square}, {"robust", Solver::robust}, {"least_squares", Solver::least_squares},
                          {"elimination", Solver::elimination}}, e.solve);
     file.choose<std::string>(*t, "engine", {{"fir", "fir"}, {"moments", "moments"}}, e.engine);
+    e.engine_at = t->contains("engine") ? position(*t->get("engine")) : e.at;
+    file.choose<plan::Accumulators>(*t, "accumulators", {{"float", plan::Accumulators::twofold}, {"double", plan::Accumulators::float64}}, e.accumulators);
     file.choose<plan::Quadrature>(*t, "quadrature",
                                   {{"exact", plan::Quadrature::exact}, {"trapezoid", plan::Quadrature::trapezoid},
                                    {"simpson", plan::Quadrature::simpson}}, e.quadrature);

@@ -162,7 +162,7 @@ std::string NormalForms::argument(const Formula& f) {
 
 NormalForms::Sum NormalForms::call(const Formula& f) {
     if (f->name == "der") {
-        const std::string order = f->arguments.size() > 1 ? exact::text(f->arguments[1]->value) : "1";
+        const std::string order = std::to_string(formula::derivative_order(f));
         return factor("der(" + f->arguments[0]->name + "," + order + ")");
     }
     if (f->name == "delay") return factor("delay(" + f->arguments[0]->name + "," + argument(f->arguments[1]) + ")");

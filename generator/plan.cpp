@@ -12,6 +12,7 @@
 #include "generator/dimension.hpp"
 #include "generator/discrete_plan.hpp"
 #include "generator/elimination_data.hpp"
+#include "generator/engine.hpp"
 #include "generator/generate.hpp"
 #include "generator/initial_value.hpp"
 #include "generator/low_pass.hpp"
@@ -41,7 +42,7 @@ public:
         : model_(model), options_(options), diagnostics_(diagnostics) {}
 
     std::optional<plan::Plan> run() {
-        if (!what_is_missing()) return std::nullopt;
+        if (!what_is_missing() || !engine_serves(model_, options_.engine, diagnostics_)) return std::nullopt;
         if (model_.discrete) return run_discrete();
         const auto forms = operator_forms(model_, diagnostics_);
         if (!forms) return std::nullopt;
@@ -65,7 +66,8 @@ public:
         solver();
         tables_and_rows(*weights);
         unknowns_and_parameters();
-        plan_.kept = kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
+        plan_.kept = plan_.moments ? 0 : kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
+        if (diagnostics_.failed()) return std::nullopt;
         if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
         if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
         return std::move(plan_);
@@ -120,8 +122,6 @@ private:
         plan_.decimate = model_.decimate;
         plan_.quadrature = model_.estimator.quadrature;
         if (!model_.estimator.given) plan_.notes.push_back("no [estimator] in the model: solve = \"square\"");
-        const std::string engine = options_.engine.empty() ? model_.estimator.engine : options_.engine;
-        if (engine == "moments") plan_.notes.push_back("engine moments is not in this version: fir is used, which gives the same numbers");
     }
 
     void equations() {
@@ -227,7 +227,7 @@ private:
     }
 
     void collect_differentiated(const formula::Formula& f, std::set<int>& out) const {
-        if (f->kind == formula::Kind::call && f->name == "der") out.insert(model_.signal_index(f->arguments[0]->name));
+        if (formula::is_derivative(f)) out.insert(model_.signal_index(f->arguments[0]->name));
         for (const formula::Formula& a : f->arguments) collect_differentiated(a, out);
     }
 
@@ -310,7 +310,7 @@ private:
         out.perturbation = kind.perturbation;
         out.hold = hold;
         for (const Rational& c : functional_->kernel(e, derivative, kind)) out.kernel.push_back(exact::text(c));
-        if (options_.weights || out.kernel.empty()) out.weights = functional_->weights(e, derivative, kind, hold);
+        equation_of_table_.push_back(e);
         plan_.tables.push_back(std::move(out));
         return static_cast<int>(plan_.tables.size()) - 1;
     }
@@ -334,7 +334,8 @@ private:
                 plan_.perturbation.push_back(row);
             }
         }
-        noise(tape);
+        plan_.moments = moments(model_, options_.engine, plan_, diagnostics_);
+        if (!plan_.moments) weights_and_noise(tape);
         plan_.signals = tape.finish();
     }
 
@@ -348,7 +349,12 @@ private:
         row.terms.insert(row.terms.end(), known.begin(), known.end());
     }
 
-    void noise(TapeBuilder& tape) {
+    /// What reads whole windows, weight by weight.
+    void weights_and_noise(TapeBuilder& tape) {
+        for (std::size_t k = 0; k < plan_.tables.size(); ++k) {
+            plan::Table& t = plan_.tables[k];
+            if (options_.weights || t.kernel.empty()) t.weights = functional_->weights(equation_of_table_[k], t.derivative, {t.p, t.perturbation}, t.hold);
+        }
         const model::Estimator& e = model_.estimator;
         if (e.solve == model::Solver::least_squares || e.solve == model::Solver::elimination || !e.uncertainty.value_or(true)) return;
         if (e.solve == model::Solver::robust && !e.has_window()) return;   // S(t) keeps 32 of its instants for uncertainty(), and these share no samples
@@ -509,6 +515,13 @@ private:
         const auto finite = [](const std::vector<double>& numbers) { return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }); };
         std::vector<double> numbers = {plan_.rate, plan_.condition_limit, plan_.deviation_limit};
         for (const plan::NoiseChannel& c : plan_.noise) numbers.push_back(c.factor);
+        if (plan_.moments) {
+            for (const plan::MomentTable& t : plan_.moments->tables) {
+                numbers.insert(numbers.end(), t.coefficients.begin(), t.coefficients.end());
+                numbers.insert(numbers.end(), t.growing.begin(), t.growing.end());
+                numbers.insert(numbers.end(), {t.oldest, t.newest, t.of_one, t.gain});
+            }
+        }
         for (const plan::Row& row : plan_.perturbation) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Row& row : plan_.rows) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
         for (const plan::Parameter& p : plan_.parameters) numbers.push_back(p.initial);
@@ -548,6 +561,7 @@ private:
     std::vector<ChosenRow> rows_;
     std::vector<int> equation_index_;
     std::vector<int> input_of_signal_;
+    std::vector<std::size_t> equation_of_table_;
     std::unique_ptr<RowFunctional> functional_;
     std::map<std::pair<std::string, bool>, DelayedInput> delays_;  // by text, and whether the equation is one sample late
     std::vector<int> window_operations_;                           // of the signals' tape, by window signal

@@ -55,8 +55,35 @@ struct Table {
     int perturbation;                  ///< 0, or i: its functional gives the coefficient c_i of the equation's perturbation, and p is 0
     Hold hold;
     std::vector<std::string> kernel;   ///< exact rational coefficients in sigma in [0,1], lowest power first, oldest sample at 0; empty: no polynomial
-    std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty if they were not asked for
-                                       ///< and follow from the kernel
+    std::vector<double> weights;       ///< samples of them, oldest first, each rounded once to the plan's scalar; empty with moments, or if they
+                                       ///< were not asked for and follow from the kernel
+};
+
+/// What windowed moments are summed in: double, or two floats.
+enum class Accumulators : std::uint8_t { float64, twofold };
+
+/// A table's weights as what moments see (runtime's moments.hpp), each number rounded once: to the accumulators (coefficients), to the scalar (ends).
+struct MomentTable {
+    std::vector<double> coefficients;   ///< lowest power first, as many for every table
+    std::vector<double> rests;          ///< twofold: what the coefficients leave; else empty
+    double oldest;
+    double newest;
+    double of_one;
+    double gain;
+    int degree;
+    int derivative;
+    std::vector<double> growing;          ///< growing windows (runtime's growing_moments.hpp): power of v after power of v, each by powers of h
+    std::vector<double> growing_newest;
+};
+
+/// The engine whose cost does not depend on the window.
+struct Moments {
+    int degree;                        ///< the largest
+    std::vector<int> degrees;          ///< by window signal
+    double step;
+    Accumulators accumulators;
+    std::vector<MomentTable> tables;   ///< by index of the plan's tables
+    int shortest = 0;                  ///< samples of the shortest window, where windows grow from a start on; 0: they do not
 };
 
 /// One term of a row identity  sum theta_l K_l[f_l] = K_0[f_0].
@@ -252,6 +279,7 @@ struct Plan {
     std::vector<std::string> partials;   ///< what the rings beside the window signals hold: derivatives of window signals by noisy inputs
     Tape signals;              ///< inputs, then past inputs -> window signals, then partials; needs the sample before if any signal is delayed
     std::vector<Table> tables;
+    std::optional<Moments> moments;    ///< empty: engine fir
     std::vector<Equation> equations;
     std::vector<Row> rows;
     std::vector<Row> perturbation;       ///< one a coefficient c_i; their residuals at the estimate
@@ -287,7 +315,7 @@ struct Plan {
     /// From a start or restart: the window, the instants of S(t), the samples that a first mean, a delayed model and a late sensor need before.
     int samples_to_first_estimate() const {
         if (steady) return steady->block + longest_wait();
-        const int instants = samples() + (solve_instants > 0 ? solve_instants - 1 : 0);
+        const int instants = (moments && moments->shortest > 0 ? moments->shortest : samples()) + (solve_instants > 0 ? solve_instants - 1 : 0);
         return (decimate > 1 ? instants * decimate + 1 : instants) + (delayed() ? 1 : 0) + delay_length() + longest_wait();
     }
     /// Samples that the lines of past inputs hold; 0: there are none.

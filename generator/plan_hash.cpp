@@ -98,6 +98,14 @@ std::string plan_hash(const plan::Plan& plan) {
         for (const std::string& c : t.kernel) hash.add(c);
         for (const double w : t.weights) hash.add(w);
     }
+    if (plan.moments) {
+        for (const int degree : plan.moments->degrees) hash.add(degree);
+        hash.add(static_cast<int>(plan.moments->accumulators));
+        for (const plan::MomentTable& t : plan.moments->tables) {
+            for (const std::vector<double>* numbers : {&t.coefficients, &t.rests, &t.growing, &t.growing_newest}) for (const double x : *numbers) hash.add(x);
+            for (const double x : {t.oldest, t.newest, t.of_one, t.gain}) hash.add(x);
+        }
+    }
     for (const std::vector<plan::Row>* rows : {&plan.rows, &plan.perturbation}) {
         hash.add(static_cast<int>(rows->size()));
         for (const plan::Row& row : *rows) {

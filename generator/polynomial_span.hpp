@@ -39,6 +39,17 @@ public:
         ++generators_;
     }
 
+    /// p over the generators. What is left of it becomes one more, divided by its content, and is appended to `added`.
+    std::vector<exact::Rational> express(const Polynomial& p, std::vector<Polynomial>& added) {
+        Reduced reduced = reduce(p);
+        if (reduced.rest.empty()) return reduced.over;
+        const exact::Rational scale = content(reduced.rest);
+        added.push_back(scaled(reduced.rest, 1 / scale));
+        add(reduced, scale);
+        reduced.over.push_back(scale);
+        return reduced.over;
+    }
+
     std::size_t generators() const { return generators_; }
 
 private:

@@ -113,7 +113,7 @@ int TapeBuilder::signal(int k, bool delayed) {
 
 int TapeBuilder::derivative(const formula::Formula& der) {
     const int signal = model_.signal_index(der->arguments[0]->name);
-    const int order = der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1;
+    const int order = formula::derivative_order(der);
     const auto known = inputs_.derivative.find({signal, order});
     if (known != inputs_.derivative.end()) return add(Op::input, known->second);
     return add(Op::derivative, inputs_.signal[static_cast<std::size_t>(signal)]);

@@ -28,7 +28,7 @@ std::size_t offset_of(const std::string& text, Position at) {
 
 int highest_order(const formula::Formula& f) {
     int order = 0;
-    if (f->kind == formula::Kind::call && f->name == "der") order = order_of_derivative(f);
+    if (formula::is_derivative(f)) order = formula::derivative_order(f);
     for (const formula::Formula& a : f->arguments) order = std::max(order, highest_order(a));
     return order;
 }
@@ -38,7 +38,7 @@ int sign_of_derivative(const formula::Formula& f, int order) {
     using formula::Kind;
     const auto of = [&](std::size_t k) { return sign_of_derivative(f->arguments[k], order); };
     switch (f->kind) {
-        case Kind::call: return f->name == "der" && order_of_derivative(f) == order ? 1 : 0;
+        case Kind::call: return f->name == "der" && formula::derivative_order(f) == order ? 1 : 0;
         case Kind::negate: return -of(0);
         case Kind::add: return of(0) != 0 ? of(0) : of(1);
         case Kind::subtract: return of(0) != 0 ? of(0) : -of(1);

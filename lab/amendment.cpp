@@ -4,6 +4,7 @@
 #include <set>
 
 #include "generator/names.hpp"
+#include "generator/tidy_unit.hpp"
 #include "lab/amend.hpp"
 #include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
@@ -114,19 +115,19 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
         state.name = name;
         state.equation = in_words(effect.name) + ", " + name;
     }
-    std::map<std::string, std::string> units = binding.role_units;
-    units["equation"] = binding.unit;
+    std::map<std::string, std::string> role_units = binding.role_units;
+    role_units["equation"] = binding.unit;
     for (const EffectParameter& p : effect.parameters) {
         const std::string name = names.fresh(p.name);
         texts.rename_everywhere(p.name, name);
-        NewName added{name, filled(p.unit, units), 0.0, binding.in_output ? std::nullopt : p.min, false};
+        NewName added{name, units::tidy(filled(p.unit, role_units)), 0.0, binding.in_output ? std::nullopt : p.min, false};
         added.neutral = filled(p.neutral, binding.roles[0]);
         out.names.push_back(std::move(added));
     }
     for (const EffectScan& s : effect.scans) {
         const std::string name = names.fresh(s.name);
         texts.rename_everywhere(s.name, name);
-        NewName added{name, filled(s.unit, units), scan, s.fitted ? std::optional(0.0) : std::nullopt, !s.fitted};
+        NewName added{name, units::tidy(filled(s.unit, role_units)), scan, s.fitted ? std::optional(0.0) : std::nullopt, !s.fitted};
         added.scanned = true;
         out.names.push_back(std::move(added));
     }

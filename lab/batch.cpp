@@ -7,10 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "algest/rows.hpp"
-#include "generator/blueprint.hpp"
 #include "generator/tape.hpp"
-#include "lab/parabola_derivative.hpp"
+#include "lab/plan_rows.hpp"
 
 namespace algest::lab {
 
@@ -40,53 +38,6 @@ std::vector<double> instants(const plan::Plan& plan, const Recording& recording,
     std::vector<double> t(recording.t.begin() + static_cast<std::ptrdiff_t>(rows.begin), recording.t.begin() + static_cast<std::ptrdiff_t>(rows.end) - plan.longest_wait());
     if (recording.uniform) for (std::size_t k = 0; k < t.size(); ++k) t[k] = static_cast<double>(k) * recording.period;
     return t;
-}
-
-/// Values of the plan's rings at every sample, one sample a column.
-MatrixXd ring_values(const plan::Plan& plan, const std::vector<std::vector<double>>& inputs, const std::vector<double>& t, RowRange rows) {
-    std::vector<std::vector<double>> samples;
-    std::vector<std::vector<double>> derivatives(inputs.size());
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const auto first = inputs[i].begin() + static_cast<std::ptrdiff_t>(rows.begin) + plan.longest_wait() - plan.inputs[i].wait;
-        samples.emplace_back(first, first + static_cast<std::ptrdiff_t>(t.size()));
-        if (plan.inputs[i].differentiated) derivatives[i] = parabola_derivative(t, samples[i]).derivative;
-    }
-    MatrixXd out(plan.rings(), static_cast<Eigen::Index>(t.size()));
-    std::vector<double> here(inputs.size());
-    std::vector<double> slope(inputs.size());
-    std::vector<double> values(plan.signals.operations.size());
-    for (std::size_t k = 0; k < t.size(); ++k) {
-        for (std::size_t i = 0; i < inputs.size(); ++i) {
-            here[i] = samples[i][k];
-            if (!derivatives[i].empty()) slope[i] = derivatives[i][k];
-        }
-        plan::evaluate(plan.signals, here.data(), here.data(), slope.data(), values.data(), out.col(static_cast<Eigen::Index>(k)).data());
-    }
-    return out;
-}
-
-/// Rows of instants at which a signal is not finite are left out, as the estimator refuses such samples.
-StackedRows stack(const plan::Plan& plan, const MatrixXd& rings) {
-    const auto blueprint = plan::make_blueprint<double>(plan);
-    const RowSet<double> set = blueprint.view().rows;
-    const Eigen::Index width = set.unknowns + 1;
-    std::vector<double> all;
-    std::vector<double> window(static_cast<std::size_t>(ring_scalars(set.signals, set.samples)));
-    std::vector<double> matrix(static_cast<std::size_t>(row_entries(set.rows, set.unknowns)));
-    std::vector<double> scratch(matrix.size());
-    int filled = 0;
-    for (Eigen::Index k = 0; k < rings.cols(); ++k) {
-        if (!rings.col(k).allFinite()) {
-            filled = 0;
-            continue;
-        }
-        write_sample(window.data(), set.signals, set.samples, static_cast<int>(k % set.samples), rings.col(k).data());
-        if (++filled < set.samples) continue;
-        evaluate_rows(set, window.data(), newest(set.samples, set.samples, static_cast<int>((k + 1) % set.samples)), matrix.data(), scratch.data());
-        all.insert(all.end(), matrix.begin(), matrix.end());
-    }
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> both(all.data(), static_cast<Eigen::Index>(all.size()) / width, width);
-    return {both.leftCols(width - 1), both.rightCols(1), set.rows};
 }
 
 /// Values, gradients in the unknowns (one parameter a row).
@@ -121,7 +72,7 @@ std::optional<Batch> batch(const plan::Plan& plan, const Recording& recording, c
     const RowRange rows = rows_of(recording, stretch);
     std::vector<std::vector<double>> inputs;
     if (!check(plan, recording, rows, diagnostics) || !read_inputs(plan, recording, inputs, diagnostics)) return std::nullopt;
-    const StackedRows all = stack(plan, ring_values(plan, inputs, instants(plan, recording, rows), rows));
+    const StackedRows all = plan_rows(plan, ring_values(plan, inputs, instants(plan, recording, rows), rows), 1);
     const Eigen::Index unknowns = static_cast<Eigen::Index>(plan.lumped.size());
     if (all.p.rows() < unknowns || !all.p.allFinite() || !all.q.allFinite()) {
         diagnostics.error(recording.file, {1, 1}, fmt::format("{} rows for {} unknowns", all.p.allFinite() ? all.p.rows() : 0, unknowns), "a longer stretch, and formulas that are finite on it");

@@ -8,11 +8,6 @@
 
 namespace algest::lab {
 
-namespace {
-
-using Eigen::MatrixXd;
-
-/// What the unknown multiplies, in the first row that has it.
 std::string regressor(const plan::Plan& plan, Eigen::Index unknown) {
     std::string out;
     for (const plan::Row& row : plan.rows) {
@@ -26,6 +21,10 @@ std::string regressor(const plan::Plan& plan, Eigen::Index unknown) {
     }
     return out;
 }
+
+namespace {
+
+using Eigen::MatrixXd;
 
 std::string plus(double factor, const std::string& name) {
     const std::string size = fmt::format("{:.4g}", std::abs(factor));

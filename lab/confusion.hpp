@@ -19,6 +19,9 @@ struct Confusion {
 /// Belsley, Kuh, Welsch: columns of norm 1 whose condition is above 30 nearly depend on each other.
 constexpr double dependent_columns = 30.0;
 
+/// What an unknown multiplies, in the first row that has it: "omega", "der(i) + ...".
+std::string regressor(const plan::Plan& plan, Eigen::Index unknown);
+
 /// One for each direction that is undetermined, in as few unknowns as may be, then one for each that is hardly determined. of_solution: covariance().
 /// Cost: unknowns^3.
 std::vector<Confusion> confusions(const plan::Plan& plan, const Decomposition& d, const Eigen::MatrixXd& of_solution);

@@ -199,6 +199,9 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     bench.refine(*nominal);
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
     out.doubts = doubts(bench, *nominal, selection, out.verdict);
+    if (!bench.unwritten().empty()) {
+        out.doubts.push_back(fmt::format("not tried, since the model file with them in it was no model: {}; write [parameters], [constants] and [signals] as sections with a line for each entry", fmt::join(bench.unwritten(), ", ")));
+    }
     bool stands = names_something(out.verdict);
     out.evidence = std::move(selection.evidence);
     const Variant* amended = stands ? &selection.best : nullptr;

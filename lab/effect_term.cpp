@@ -89,7 +89,7 @@ private:
             else complain_at(f->offset, "unknown name " + quoted(f->name), did_you_mean(f->name, names_) + "declare it under [[parameter]] or [[scan]], or write a {role}");
             return false;
         }
-        if (f->kind == Kind::call && f->name == "der" && !sound_derivative(f)) return false;
+        if (formula::is_derivative(f) && !sound_derivative(f)) return false;
         bool good = true;
         for (const Formula& a : f->arguments) good = names_exist(a) && good;
         return good;

@@ -12,13 +12,11 @@ namespace {
 using formula::Formula;
 using formula::Kind;
 
-bool is_derivative(const Formula& f) { return f->kind == Kind::call && f->name == "der"; }
-
 /// Every node outside of der(), the calls of der() themselves included.
 template <class Use>
 void each_outside(const Formula& f, Use use) {
     use(f);
-    if (is_derivative(f)) return;
+    if (formula::is_derivative(f)) return;
     for (const Formula& a : f->arguments) each_outside(a, use);
 }
 
@@ -95,7 +93,7 @@ std::vector<Stretch> places_of_name(const model::Equation& e, const std::string&
 
 std::vector<Stretch> places_of_derivative(const model::Equation& e, const std::string& signal) {
     std::vector<Stretch> out;
-    each_outside(e, [&](const Formula& f) { if (is_derivative(f) && f->arguments[0]->name == signal) out.push_back(stretch_of_call(f, e.ode)); });
+    each_outside(e, [&](const Formula& f) { if (formula::is_derivative(f) && f->arguments[0]->name == signal) out.push_back(stretch_of_call(f, e.ode)); });
     return out;
 }
 
@@ -112,7 +110,7 @@ std::vector<Stretch> places_of_difference(const model::Equation& e, const std::s
 
 std::vector<Stretch> places_of_difference_of_rates(const model::Equation& e, const std::string& a, const std::string& b) {
     std::vector<Stretch> out;
-    const auto is_rate = [](const Formula& f, const std::string& x) { return is_derivative(f) && order_of_derivative(f) == 1 && f->start == f->offset && f->arguments[0]->name == x; };
+    const auto is_rate = [](const Formula& f, const std::string& x) { return formula::is_derivative(f) && formula::derivative_order(f) == 1 && f->start == f->offset && f->arguments[0]->name == x; };
     each_outside(e, [&](const Formula& f) {
         if (f->kind != Kind::subtract) return;
         const Formula& left = f->arguments[0];
@@ -127,8 +125,8 @@ std::vector<Stretch> place_of_leading(const model::Model& model, const model::Eq
     std::vector<Stretch> out;
     for (const auto& factors : products(e)) {
         const bool leads = std::any_of(factors.begin(), factors.end(), [&](const Formula& f) {
-            if (!is_derivative(f) || model.signal_index(f->arguments[0]->name) != own.signal) return false;
-            return order_of_derivative(f) == own.order;
+            if (!formula::is_derivative(f) || model.signal_index(f->arguments[0]->name) != own.signal) return false;
+            return formula::derivative_order(f) == own.order;
         });
         if (!leads || factors.size() != 2) continue;
         for (const Formula& f : factors) if (is_quantity(model, f)) out.push_back(stretch_of_name(f));

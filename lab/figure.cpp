@@ -135,7 +135,7 @@ private:
         line("set format y '%.{}f'", y.decimals);
         if (panel.x.shown) line("set format x '%.{}f'", x.decimals);
         else line("set format x ''");
-        for (const Stretch& band : panel.bands) {
+        for (const Interval& band : panel.bands) {
             const double from = std::max(band.from, panel.y.from) * y.scale;
             const double to = std::min(band.to, panel.y.to) * y.scale;
             if (from < to) line("set object rectangle from graph 0, first {:.12g} to graph 1, first {:.12g} behind fc rgb '#d9d9d9' fs solid noborder", from, to);
@@ -145,10 +145,10 @@ private:
                 line("set arrow from graph 0, first {0:.12g} to graph 1, first {0:.12g} nohead front dashtype (6,4) lw 1 lc rgb '#333333'", edge * y.scale);
             }
         }
-        for (const Stretch& stretch : panel.marked) {
-            const double from = std::max(stretch.from, panel.x.from) * x.scale;
-            const double to = std::min(stretch.to, panel.x.to) * x.scale;
-            if (from < to) line("set object rectangle from first {:.12g}, graph 0 to first {:.12g}, graph 1 behind fc rgb '#56b4e9' fs transparent solid 0.16 noborder", from, to);
+        for (const Tint& tint : panel.marked) {
+            const double from = std::max(tint.over.from, panel.x.from) * x.scale;
+            const double to = std::min(tint.over.to, panel.x.to) * x.scale;
+            if (from < to) line("set object rectangle from first {:.12g}, graph 0 to first {:.12g}, graph 1 behind fc rgb '{}' fs transparent solid 0.16 noborder", from, to, tint.colour);
         }
         const double middle = 0.5 * (panel.top + panel.bottom);
         const Label y_label = label(panel.y, y, panel.bottom - panel.top);
@@ -162,6 +162,9 @@ private:
             line("set label {} at screen {:.5f}, screen {:.5f} center textcolor rgb '#555555'", quoted(text), across(panel.left + share * (panel.right - panel.left)), up(panel.top - 10));
         }
         std::vector<std::string> plots;
+        for (std::size_t k = 0; k < panel.areas.size(); ++k) {
+            if (fill(panel.areas[k], k, x.scale, y.scale)) plots.push_back(fmt::format("$a{} using 1:2:3 with filledcurves fs solid noborder lc rgb '{}' title {}", k, panel.areas[k].colour, quoted(panel.areas[k].title)));
+        }
         for (std::size_t k = 0; k < panel.drawn.size(); ++k) {
             const Drawn& drawn = panel.drawn[k];
             if (!data(drawn, k, x.scale, y.scale, 0.1 * (panel.x.to - panel.x.from) * x.scale / (panel.right - panel.left))) continue;
@@ -187,6 +190,20 @@ private:
             if (drawn.points) fmt::format_to(std::back_inserter(block), "{:.9g} {:.7g}\n\n", x + dot, y);
         }
         if (any) line("$d{} << EOD\n{}EOD", k, block);
+        return any;
+    }
+
+    /// The data block $aK; false where nothing is in it.
+    bool fill(const Area& area, std::size_t k, double x_scale, double y_scale) {
+        bool any = false;
+        std::string block;
+        for (std::size_t i = 0; i < area.x.size(); ++i) {
+            const bool here = std::isfinite(area.x[i]) && std::isfinite(area.low[i]) && std::isfinite(area.high[i]);
+            if (here) fmt::format_to(std::back_inserter(block), "{:.9g} {:.7g} {:.7g}\n", area.x[i] * x_scale, area.low[i] * y_scale, area.high[i] * y_scale);
+            else block += '\n';
+            any = any || here;
+        }
+        if (any) line("$a{} << EOD\n{}EOD", k, block);
         return any;
     }
 

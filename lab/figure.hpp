@@ -24,18 +24,34 @@ struct Drawn {
     bool points = false;  ///< a dot for each, no line
 };
 
-struct Stretch {
+struct Interval {
     double from;
     double to;
+};
+
+/// An interval of x that is tinted.
+struct Tint {
+    Interval over;
+    std::string colour = "#56b4e9";   ///< #rrggbb, shown through
+};
+
+/// What lies between two lines, filled; a break in either breaks it.
+struct Area {
+    std::vector<double> x;
+    std::vector<double> low;
+    std::vector<double> high;
+    std::string title;
+    std::string colour;   ///< #rrggbb
 };
 
 struct Panel {
     double left, right, top, bottom;       ///< px from the figure's left and top edges: the axes, without their labels
     Axis x;
     Axis y;
-    std::vector<Stretch> bands;            ///< of y, grey with dashed edges: what noise makes
-    std::vector<Stretch> marked;           ///< of x, tinted
+    std::vector<Interval> bands;           ///< of y, grey with dashed edges: what noise makes
+    std::vector<Tint> marked;
     std::vector<std::pair<double, std::string>> headings;   ///< x and the text above the axes that is centred there
+    std::vector<Area> areas;               ///< under all lines
     std::vector<Drawn> drawn;              ///< later ones lie on top
 };
 

@@ -16,6 +16,7 @@
 #include "generator/blueprint.hpp"
 #include "generator/plan.hpp"
 #include "generator/tape.hpp"
+#include "lab/host_moments.hpp"
 
 namespace algest::lab {
 
@@ -33,14 +34,17 @@ public:
           lines_(lines_of_.size() * size(delay_length_)),
           newest_(lines_of_.size()),
           all_inputs_(plan.inputs.size() + plan.past.size()),
-          rings_(size(ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
+          moments_(host_moments<S>(plan)),
+          rings_(size(plan.moments ? moment_ring(blueprint_.signals, blueprint_.samples)
+                                   : ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
           sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
-          published_(size(published_scalars(blueprint_.solve, blueprint_.unknowns))),
+          published_(size(plan.moments ? published_row_scalars(blueprint_.solve, blueprint_.rows.rows, blueprint_.unknowns, blueprint_.perturbation.rows)
+                                       : published_scalars(blueprint_.solve, blueprint_.unknowns))),
           whitened_at_(blueprint_.whiten_at),
           ratio_(size(ratio_scalars(blueprint_.ratio.used, blueprint_.unknowns))),
           boxcar_(size(boxcar_scalars(blueprint_.signals))),
           means_(size(blueprint_.signals)),
-          push_scratch_(size(push_scratch(blueprint_.rows.rows, blueprint_.unknowns))),
+          push_scratch_(size(push_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns))),
           estimate_scratch_(size(uncertainty_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns,
                                                      plan.solve_instants) +
                                  packed_size(blueprint_.unknowns) + elimination_scratch(blueprint_.elimination.view()))),
@@ -76,6 +80,7 @@ public:
     /// Forgets everything; the parameters are their initial values again.
     void reset() {
         algest::reset(blueprint_.view(), memory());
+        reset_moments(moments_);
         run_ = 0;
         block_ = {};
         point_ = {};
@@ -119,7 +124,7 @@ public:
             if (!ends) return algest::prime(memory());
             sample = means_.data();
         }
-        algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
+        absorb(sample);
     }
 
     /// Solves with the windows as they are now. Cost: that of the runtime's estimate, and the parameter map.
@@ -270,9 +275,14 @@ private:
         for (std::size_t i = 0; i < previous_.size(); ++i) previous_[i] = inputs[i];
     }
 
+    /// Into the windows of the plan's engine; nullptr: a refused sample.
+    void absorb(const S* sample) {
+        if (!push_moments(moments_, blueprint_.view(), memory(), sample, push_scratch_.data())) algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
+    }
+
     /// Windows, filters and the memory of the sample before start anew.
     void refuse() {
-        algest::push(blueprint_.view(), memory(), static_cast<const S*>(nullptr), push_scratch_.data());
+        absorb(nullptr);
         waited_ = 0;
         run_ = 0;
         block_ = {};
@@ -299,6 +309,7 @@ private:
     DelayProgress delay_{};
     int run_ = 0;  ///< delayed plans: samples accepted since the last restart, at most 2
     Progress progress_{};
+    HostMoments<S> moments_;
     std::vector<S> rings_;
     std::vector<S> sums_;
     std::vector<S> published_;

@@ -82,7 +82,7 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
                                   100 * best.score.nrmse, 100 * nominal.score.nrmse));
     }
     if (verdict != Verdict::named && verdict != Verdict::ambiguous) return out;
-    for (const std::string& name : selection.as_well) out.push_back(fmt::format("{} explains the recording as well: what is plainer is named before it", name));
+    out.insert(out.end(), selection.as_well.begin(), selection.as_well.end());
     for (const Amendment& a : best.amendments) {
         for (const NewName& n : a.names) {
             const int p = best.model.parameter_index(n.name);

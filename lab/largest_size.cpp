@@ -20,7 +20,7 @@ std::vector<double> series(const Formula& f, const model::Model& model, const Be
         const int s = model.signal_index(f->name);
         return s < 0 ? std::vector<double>() : bench.measured[static_cast<std::size_t>(s)];
     }
-    if (f->kind != Kind::subtract && !(f->kind == Kind::call && f->name == "der")) return {};
+    if (f->kind != Kind::subtract && !formula::is_derivative(f)) return {};
     std::vector<double> out = series(f->arguments[0], model, bench);
     if (out.empty()) return {};
     if (f->kind == Kind::call) return slopes(out, noise_by_signal(model, bench)[static_cast<std::size_t>(model.signal_index(f->arguments[0]->name))], bench.drive.period);

@@ -16,8 +16,6 @@ namespace {
 using formula::Formula;
 using formula::Kind;
 
-int order_of(const Formula& der) { return der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1; }
-
 template <class Use>
 void each_node(const Formula& f, Use use) {
     use(f);
@@ -29,8 +27,6 @@ void each_node(const model::Equation& e, Use use) {
     each_node(e.sides.left, use);
     each_node(e.sides.right, use);
 }
-
-bool is_derivative(const Formula& f) { return f->kind == Kind::call && f->name == "der"; }
 
 class Compiler {
 public:
@@ -65,9 +61,9 @@ private:
     void find_orders() {
         for (const model::Equation& e : model_.equations) {
             each_node(e, [&](const Formula& f) {
-                if (is_derivative(f)) {
+                if (formula::is_derivative(f)) {
                     int& order = orders_[model_.signal_index(f->arguments[0]->name)];
-                    order = std::max(order, order_of(f));
+                    order = std::max(order, formula::derivative_order(f));
                 }
             });
         }
@@ -77,9 +73,9 @@ private:
     std::vector<int> candidates(const model::Equation& e) const {
         std::vector<int> out;
         each_node(e, [&](const Formula& f) {
-            if (!is_derivative(f)) return;
+            if (!formula::is_derivative(f)) return;
             const int signal = model_.signal_index(f->arguments[0]->name);
-            if (orders_.at(signal) == order_of(f) && std::find(out.begin(), out.end(), signal) == out.end()) out.push_back(signal);
+            if (orders_.at(signal) == formula::derivative_order(f) && std::find(out.begin(), out.end(), signal) == out.end()) out.push_back(signal);
         });
         return out;
     }
@@ -167,9 +163,9 @@ private:
                 good = false;
             }
             each_node(f.law, [&](const Formula& g) {
-                if (!is_derivative(g)) return;
+                if (!formula::is_derivative(g)) return;
                 const int signal = model_.signal_index(g->arguments[0]->name);
-                if (moves(signal) && order_of(g) < orders_.at(signal)) return;
+                if (moves(signal) && formula::derivative_order(g) < orders_.at(signal)) return;
                 fail(f.places[std::min(static_cast<std::size_t>(g->offset), f.places.size() - 1)], "the law differentiates '" + g->arguments[0]->name + "' beyond what the model knows as a state",
                      "use a derivative of lower order, of a signal that an equation moves");
                 good = false;
@@ -178,7 +174,7 @@ private:
         return good;
     }
 
-    bool is_highest(const Formula& f) const { return is_derivative(f) && orders_.at(model_.signal_index(f->arguments[0]->name)) == order_of(f); }
+    bool is_highest(const Formula& f) const { return formula::is_derivative(f) && orders_.at(model_.signal_index(f->arguments[0]->name)) == formula::derivative_order(f); }
 
     bool has_highest(const Formula& f) const {
         bool found = false;

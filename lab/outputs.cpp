@@ -11,7 +11,7 @@ using formula::Formula;
 using formula::Kind;
 
 bool differentiates(const Formula& f) {
-    return formula::is_call(f, "der") || std::any_of(f->arguments.begin(), f->arguments.end(), differentiates);
+    return formula::is_derivative(f) || std::any_of(f->arguments.begin(), f->arguments.end(), differentiates);
 }
 
 /// Where a name stands first; null: nowhere.
@@ -23,7 +23,7 @@ const formula::Node* first(const Formula& f, const std::string& name) {
 
 bool moves(const model::Model& model, const std::string& name) {
     const auto differentiated = [&](const Formula& f, const auto& self) -> bool {
-        if (formula::is_call(f, "der") && f->arguments[0]->name == name) return true;
+        if (formula::is_derivative(f) && f->arguments[0]->name == name) return true;
         return std::any_of(f->arguments.begin(), f->arguments.end(), [&](const Formula& a) { return self(a, self); });
     };
     return std::any_of(model.equations.begin(), model.equations.end(), [&](const model::Equation& e) {

@@ -34,7 +34,9 @@ Quantity quantity(double value, double sd) {
         out.value = fmt::format("{:.6g}", value * scale);
         return out;
     }
-    const int decimals = std::clamp(exponent - leading_power(sd) + 1, 0, most_decimals);
+    const int by_deviation = exponent - leading_power(sd) + 1;
+    const bool seen = value == 0 || std::abs(value) * scale >= 0.5 * std::pow(10.0, -by_deviation);
+    const int decimals = std::clamp(seen ? by_deviation : exponent - leading_power(value), 0, most_decimals);
     out.value = fmt::format("{:.{}f}", value * scale, decimals);
     out.sd = fmt::format("{:.{}f}", sd * scale, decimals);
     return out;

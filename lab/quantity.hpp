@@ -12,7 +12,7 @@ struct Quantity {
     std::string exponent;   ///< of ten, a multiple of 3; empty: 0
 };
 
-/// The standard deviation to two digits and the value to its last digit; six digits of a value without one. A value that is not
+/// The standard deviation to two digits and the value to its last digit (a value that would then be 0 and is not: to its own first digit); six digits of a value without one. A value that is not
 /// finite is "-".
 Quantity quantity(double value, double sd);
 

@@ -36,7 +36,7 @@ Replay run(const plan::Plan& plan, const Recording& recording, const std::vector
            const ProgressReport& progress) {
     constexpr std::size_t samples_between_reports = 512;
     HostEstimator<S> estimator(plan);
-    Replay out{{}, {}, {}, {}, plan.parameters.size(), {}, {}, {}};
+    Replay out{{}, {}, {}, {}, plan.parameters.size(), {}, {}, {}, {}};
     out.points.quantities = plan.steady ? plan.steady->averaged.size() : 0;
     out.t.reserve(rows.size());
     out.status.reserve(rows.size());
@@ -68,6 +68,7 @@ void run_deviations(const plan::Plan& plan, const std::vector<std::vector<double
     const std::size_t samples = static_cast<std::size_t>(replay.status.rend() - last);
     const std::size_t stride = std::max<std::size_t>(1, samples / std::max<std::size_t>(most, 1));
     replay.deviations.assign(replay.parameters.size(), std::numeric_limits<double>::quiet_NaN());
+    replay.biases = replay.deviations;
     HostEstimator<S> estimator(plan);
     std::vector<S> sample(inputs.size());
     for (std::size_t k = 0; k < samples; ++k) {
@@ -76,7 +77,9 @@ void run_deviations(const plan::Plan& plan, const std::vector<std::vector<double
         if (k + 1 != samples && (k % stride != 0 || most <= 1)) continue;
         if (estimator.status() != Status::ok || estimator.uncertainty() != Status::ok) continue;
         for (int p = 0; p < plan.estimated(); ++p) {
-            replay.deviations[k * replay.parameter_count + static_cast<std::size_t>(p)] = static_cast<double>(estimator.deviation()[static_cast<std::size_t>(p)]);
+            const std::size_t place = k * replay.parameter_count + static_cast<std::size_t>(p);
+            replay.deviations[place] = static_cast<double>(estimator.deviation()[static_cast<std::size_t>(p)]);
+            replay.biases[place] = static_cast<double>(estimator.bias()[static_cast<std::size_t>(p)]);
         }
         if (progress) progress(static_cast<double>(k) / static_cast<double>(samples));
     }
@@ -153,8 +156,9 @@ ReplaySummary summarise(const Replay& replay) {
         out.last.push_back(ok.empty() ? std::nullopt : std::optional(replay.parameter(replay.samples() - 1, p)));   // before: an initial value
         std::transform(ok.begin(), ok.end(), values.begin(), [&](std::size_t k) { return replay.parameter(k, p); });
         out.median.push_back(median(values));
-        const double deviation = ok.empty() || replay.deviations.empty() ? std::numeric_limits<double>::quiet_NaN() : replay.deviation(ok.back(), p);
-        out.deviation.push_back(std::isfinite(deviation) ? std::optional(deviation) : std::nullopt);
+        const bool known = !ok.empty() && !replay.deviations.empty() && std::isfinite(replay.deviation(ok.back(), p));
+        out.deviation.push_back(known ? std::optional(replay.deviation(ok.back(), p)) : std::nullopt);
+        out.bias.push_back(known ? std::optional(replay.bias(ok.back(), p)) : std::nullopt);
     }
     std::transform(ok.begin(), ok.end(), values.begin(), [&](std::size_t k) { return replay.condition[k]; });
     out.condition_median = median(values);

@@ -25,12 +25,14 @@ struct Replay {
     std::vector<double> parameters;  ///< samples x parameters
     std::size_t parameter_count;
     std::vector<double> deviations = {};   ///< samples x parameters, NaN where none was computed; empty: none were
+    std::vector<double> biases = {};       ///< likewise: what the noise in the regressors adds to the estimate on average
     OperatingPoints points = {};           ///< of the functional average
     std::vector<EliminationCandidate> candidates = {};   ///< of an elimination, with all rows
 
     std::size_t samples() const { return t.size(); }
     double parameter(std::size_t sample, std::size_t p) const { return parameters[sample * parameter_count + p]; }
     double deviation(std::size_t sample, std::size_t p) const { return deviations[sample * parameter_count + p]; }
+    double bias(std::size_t sample, std::size_t p) const { return biases[sample * parameter_count + p]; }
 };
 
 /// Of a Replay. Empty where no sample is ok.
@@ -39,6 +41,7 @@ struct ReplaySummary {
     std::vector<std::optional<double>> last;    ///< by parameter: held at the end of the stretch
     std::vector<std::optional<double>> median;  ///< by parameter, over ok samples
     std::vector<std::optional<double>> deviation;   ///< by parameter, of the last ok sample
+    std::vector<std::optional<double>> bias;        ///< likewise
     std::optional<double> condition_median;     ///< over ok samples
     std::optional<double> condition_last;       ///< of the last ok sample
 };
@@ -52,7 +55,7 @@ using ProgressReport = std::function<void(double)>;
 std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording, const Stretch& stretch,
                              Diagnostics& diagnostics, const ProgressReport& progress = {});
 
-/// Adds standard deviations, by the runtime's uncertainty(), at the last ok sample and at evenly spaced ok ones, about `most` of them, in a
+/// Adds standard deviations and biases, by the runtime's uncertainty(), at the last ok sample and at evenly spaced ok ones, about `most` of them, in a
 /// second run over what was replayed: at every sample they would cost a thousand times the estimates. Nothing where the plan declares no noise.
 /// Cost: HostEstimator::step a sample, HostEstimator::uncertainty for each of them.
 void add_deviations(const plan::Plan& plan, const Recording& recording, std::size_t most, Replay& replay, const ProgressReport& progress = {});

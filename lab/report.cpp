@@ -9,10 +9,9 @@
 #include <optional>
 #include <set>
 
-#include "generator/render.hpp"
-#include "lab/html_text.hpp"
 #include "lab/quantity.hpp"
 #include "lab/report_figures.hpp"
+#include "lab/report_page.hpp"
 
 namespace algest::lab {
 
@@ -26,89 +25,16 @@ constexpr std::size_t most_evidence = 40;      ///< rows of the table
 constexpr std::size_t longest_in_a_sentence = 70;   ///< bytes of a term; a longer one gets a line of its own
 constexpr double share_worth_a_line = 0.02;    ///< of the gap, in the verdict
 
-/// Every text goes into the page through here.
-void set(Data& data, const std::string& name, const std::string& text) { data.set(name, html_text(text)); }
-
-Data entry(const std::string& name, const std::string& text) {
-    Data data;
-    set(data, name, text);
-    return data;
-}
-
-void set_list(Data& data, const std::string& name, DataList list) {
-    data.set("has_" + name, !list.empty());
-    data.set(name, generator::listed(std::move(list)));
-}
-
-std::string unit_text(const std::string& unit) { return unit.empty() ? "unknown" : unit; }
-
-void set_quantity(Data& data, const std::string& prefix, const NamedParameter& p) {
-    const Quantity q = quantity(p.value, p.sd);
-    set(data, prefix + "value", q.value);
-    set(data, prefix + "sd", q.sd);
-    data.set(prefix + "has_sd", !q.sd.empty());
-    data.set(prefix + "unseen", !std::isfinite(p.sd));
-    data.set(prefix + "chosen_constant", p.sd == 0);
-    set(data, prefix + "exponent", q.exponent);
-    data.set(prefix + "has_exponent", !q.exponent.empty());
-}
-
 Data parameter_data(const NamedParameter& p) {
     Data data;
-    set(data, "parameter", p.name);
-    set(data, "unit", unit_text(p.unit));
-    set_quantity(data, "", p);
+    set_text(data, "parameter", p.name);
+    set_text(data, "unit", unit_text(p.unit));
+    set_quantity(data, "", p.value, p.sd);
     const double share = std::abs(p.sd / p.value);
     data.set("has_share", std::isfinite(share) && p.sd > 0);
-    set(data, "share", fmt::format("{:.2g}", 100 * share));
+    set_text(data, "share", fmt::format("{:.2g}", 100 * share));
     return data;
 }
-
-/// A word that a shell takes as it is.
-std::string shell_word(const std::string& text) {
-    const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string("/._-+=:,@%").find(c) != std::string::npos;
-    });
-    if (plain) return text;
-    std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
-/// Draws figures until the first that cannot be for want of gnuplot; says so once.
-class Figures {
-public:
-    Figures(const Draw& draw, Diagnostics& diagnostics) : draw_(draw), diagnostics_(diagnostics) {}
-
-    /// Sets `drawn` and `svg`.
-    void set(Data& data, const Figure& figure) {
-        data.set("drawn", false);
-        data.set("svg", std::string());
-        data.set("panels", std::to_string(figure.panels.size()));
-        if (missing_) return;
-        const Drawing drawing = draw_(gnuplot_script(figure));
-        if (drawing.outcome == Drawing::Outcome::not_installed) {
-            missing_ = true;
-            diagnostics_.warning("gnuplot", {}, "is not installed: the report has no figures", "apt-get install gnuplot-nox");
-        } else if (drawing.outcome == Drawing::Outcome::failed) {
-            failed_ = true;
-            diagnostics_.warning("gnuplot", {}, "cannot draw '" + figure.title + "': " + drawing.complaint);
-        } else {
-            data.set("drawn", true);
-            data.set("svg", inline_svg(drawing.svg, fmt::format("figure{}_", ++count_), figure.title));
-        }
-    }
-
-    bool missing() const { return missing_; }
-    bool failed() const { return failed_; }
-
-private:
-    const Draw& draw_;
-    Diagnostics& diagnostics_;
-    int count_ = 0;
-    bool missing_ = false;
-    bool failed_ = false;
-};
 
 /// Error over floor; infinite without a floor.
 double over_floor(double error, const OutputGap& output) { return output.floor > 0 ? error / output.floor : std::numeric_limits<double>::infinity(); }
@@ -129,12 +55,12 @@ void set_gap(Data& page, const Discovery& d) {
     const OutputGap gap = output != nullptr ? *output : OutputGap{"", 0, 0, 0};
     const bool floored = gap.floor > 0;
     page.set("gap_floored", floored);
-    set(page, "gap_signal", gap.signal);
-    set(page, "gap_before", three_digits(floored ? gap.before / gap.floor : gap.before));
-    set(page, "gap_after", three_digits(floored ? gap.after / gap.floor : gap.after));
+    set_text(page, "gap_signal", gap.signal);
+    set_text(page, "gap_before", three_digits(floored ? gap.before / gap.floor : gap.before));
+    set_text(page, "gap_after", three_digits(floored ? gap.after / gap.floor : gap.after));
     const double factor = gap.before / gap.after;
     page.set("gap_has_factor", std::isfinite(factor) && factor >= 1.05);
-    set(page, "gap_factor", three_digits(factor));
+    set_text(page, "gap_factor", three_digits(factor));
     page.set("gap_was_at_floor", output != nullptr && floored && gap.before < called_the_floor * gap.floor);
     page.set("gap_is_at_floor", output != nullptr && floored && std::all_of(d.first().outputs.begin(), d.first().outputs.end(), [](const OutputGap& o) { return o.after < called_the_floor * o.floor; }));
 }
@@ -155,23 +81,23 @@ void set_runner_up(Data& page, const Discovery& d) {
     }
     const bool known = chosen != nullptr && next != nullptr && chosen->validation > 0;
     page.set("has_runner_up", known);
-    set(page, "runner_up", known ? next->effect : "");
-    set(page, "runner_up_factor", known ? three_digits(next->validation / chosen->validation) : "");
+    set_text(page, "runner_up", known ? next->effect : "");
+    set_text(page, "runner_up_factor", known ? three_digits(next->validation / chosen->validation) : "");
     page.set("has_strength", chosen != nullptr);
-    set(page, "strength", chosen != nullptr ? three_digits(chosen->strength) : "");
+    set_text(page, "strength", chosen != nullptr ? three_digits(chosen->strength) : "");
 }
 
 DataList effects_data(const Discovery& d) {
     DataList list;
     for (const NamedEffect& effect : d.effects) {
         Data data;
-        set(data, "effect", effect.name);
-        set(data, "equation", effect.equation);
-        set(data, "term", effect.term);
+        set_text(data, "effect", effect.name);
+        set_text(data, "equation", effect.equation);
+        set_text(data, "term", effect.term);
         data.set("long_term", effect.term.size() > longest_in_a_sentence);
-        set(data, "summary", effect.summary);
+        set_text(data, "summary", effect.summary);
         data.set("has_summary", !effect.summary.empty());
-        set(data, "shows", effect.shows);
+        set_text(data, "shows", effect.shows);
         data.set("has_shows", !effect.shows.empty());
         DataList parameters;
         for (const NamedParameter& p : effect.parameters) parameters.push_back(parameter_data(p));
@@ -197,12 +123,12 @@ DataList gaps_data(const Discovery& d) {
     DataList list;
     for (const OutputGap& output : d.first().outputs) {
         Data data;
-        set(data, "signal", output.signal);
-        set(data, "before", three_digits(output.before));
-        set(data, "after", three_digits(output.after));
-        set(data, "floor", output.floor > 0 ? three_digits(output.floor) : "-");
-        set(data, "before_over", three_digits(over_floor(output.before, output)));
-        set(data, "after_over", three_digits(over_floor(output.after, output)));
+        set_text(data, "signal", output.signal);
+        set_text(data, "before", three_digits(output.before));
+        set_text(data, "after", three_digits(output.after));
+        set_text(data, "floor", output.floor > 0 ? three_digits(output.floor) : "-");
+        set_text(data, "before_over", three_digits(over_floor(output.before, output)));
+        set_text(data, "after_over", three_digits(over_floor(output.after, output)));
         data.set("closed", output.floor > 0 && output.after < called_the_floor * output.floor);
         list.push_back(data);
     }
@@ -215,12 +141,12 @@ DataList recordings_data(const Discovery& d) {
     for (const RecordingEvidence& r : d.recordings) {
         for (const OutputGap& output : r.outputs) {
             Data data;
-            set(data, "file", r.file);
-            set(data, "signal", output.signal);
-            set(data, "before", three_digits(output.before));
-            set(data, "after", three_digits(output.after));
-            set(data, "floor", output.floor > 0 ? three_digits(output.floor) : "-");
-            set(data, "gain", three_digits(r.gain));
+            set_text(data, "file", r.file);
+            set_text(data, "signal", output.signal);
+            set_text(data, "before", three_digits(output.before));
+            set_text(data, "after", three_digits(output.after));
+            set_text(data, "floor", output.floor > 0 ? three_digits(output.floor) : "-");
+            set_text(data, "gain", three_digits(r.gain));
             list.push_back(data);
         }
     }
@@ -233,13 +159,13 @@ DataList tests_data(const Discovery& d, const model::Model& model, const Recordi
         const auto figure = test_figure(d, model, recording, output);
         if (!figure) continue;
         Data data;
-        set(data, "signal", output.signal);
-        set(data, "unit", unit_text(model.signal(output.signal)->unit));
+        set_text(data, "signal", output.signal);
+        set_text(data, "unit", unit_text(model.signal(output.signal)->unit));
         data.set("has_noise", figure->noise > 0);
-        set(data, "noise", three_digits(figure->noise));
+        set_text(data, "noise", three_digits(figure->noise));
         data.set("detail", figure->detail);
-        data.set("before_diverges", figure->before_diverges);
-        data.set("after_diverges", figure->after_diverges);
+        data.set("before_diverges", figure->diverges[0]);
+        data.set("after_diverges", figure->diverges.size() > 1 && figure->diverges[1]);
         figures.set(data, figure->figure);
         list.push_back(data);
     }
@@ -254,11 +180,11 @@ DataList residuals_data(const Discovery& d, Figures& figures, const MakeFigure& 
         const std::optional<Figure> figure = make_figure(residual);
         if (!figure) continue;
         Data data;
-        set(data, "equation", residual.equation);
-        set(data, "unit", unit_text(residual.unit));
-        set(data, "signal", residual.signal);
+        set_text(data, "equation", residual.equation);
+        set_text(data, "unit", unit_text(residual.unit));
+        set_text(data, "signal", residual.signal);
         data.set("has_noise", std::isfinite(residual.noise) && residual.noise > 0);
-        set(data, "noise", three_digits(residual.noise));
+        set_text(data, "noise", three_digits(residual.noise));
         data.set("has_after", residual.after.size() == residual.before.size());
         data.set("has_law", !residual.law.empty() && residual.law.size() == residual.after.size());
         figures.set(data, *figure);
@@ -271,13 +197,13 @@ DataList where_data(const Discovery& d) {
     DataList list;
     for (const Where& w : d.where) {
         Data data;
-        set(data, "equation", w.equation);
-        set(data, "share", fmt::format("{:.1f}", 100 * w.share));
+        set_text(data, "equation", w.equation);
+        set_text(data, "share", fmt::format("{:.1f}", 100 * w.share));
         data.set("large", w.share >= share_worth_a_line);
-        set(data, "bar", fmt::format("{:.1f}", std::isfinite(w.share) ? std::clamp(100 * w.share, 0.0, 100.0) : 0.0));
-        set(data, "from_s", fmt::format("{:.4g}", w.from_s));
-        set(data, "to_s", fmt::format("{:.4g}", w.to_s));
-        set(data, "region", w.region);
+        set_text(data, "bar", fmt::format("{:.1f}", std::isfinite(w.share) ? std::clamp(100 * w.share, 0.0, 100.0) : 0.0));
+        set_text(data, "from_s", fmt::format("{:.4g}", w.from_s));
+        set_text(data, "to_s", fmt::format("{:.4g}", w.to_s));
+        set_text(data, "region", w.region);
         list.push_back(data);
     }
     return list;
@@ -288,13 +214,13 @@ DataList evidence_data(const Discovery& d) {
     for (const Evidence& e : d.evidence) {
         if (list.size() >= most_evidence && !e.chosen && !e.rival) continue;
         Data data;
-        set(data, "step", std::to_string(e.step));
-        set(data, "effect", e.effect);
-        set(data, "equation", e.equation);
-        set(data, "term", e.term);
-        set(data, "strength", three_digits(e.strength));
-        set(data, "validation", three_digits(e.validation));
-        set(data, "improvement", three_digits(e.improvement));
+        set_text(data, "step", std::to_string(e.step));
+        set_text(data, "effect", e.effect);
+        set_text(data, "equation", e.equation);
+        set_text(data, "term", e.term);
+        set_text(data, "strength", three_digits(e.strength));
+        set_text(data, "validation", three_digits(e.validation));
+        set_text(data, "improvement", three_digits(e.improvement));
         data.set("chosen", e.chosen);
         data.set("rival", e.rival && !e.chosen);
         data.set("rejected", !e.rival && !e.chosen && std::isfinite(e.validation));
@@ -315,20 +241,20 @@ DataList parameters_data(const Discovery& d) {
     for (const NamedParameter& p : d.parameters_after) if (named(d.parameters_before, p.name) == nullptr) order.push_back(&p);
     DataList list;
     for (const NamedParameter* p : order) {
-        const NamedParameter nothing{"", "", std::numeric_limits<double>::quiet_NaN(), 0};
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
         const NamedParameter* const before = named(d.parameters_before, p->name);
         const NamedParameter* const after = named(d.parameters_after, p->name);
         Data data;
-        set(data, "parameter", p->name);
-        set(data, "unit", unit_text(p->unit));
+        set_text(data, "parameter", p->name);
+        set_text(data, "unit", unit_text(p->unit));
         data.set("has_before", before != nullptr);
         data.set("has_after", after != nullptr);
         data.set("new", before == nullptr);
-        set_quantity(data, "before_", before != nullptr ? *before : nothing);
-        set_quantity(data, "after_", after != nullptr ? *after : nothing);
-        const double change = before != nullptr && after != nullptr ? 100 * (after->value - before->value) / std::abs(before->value) : std::numeric_limits<double>::quiet_NaN();
+        set_quantity(data, "before_", before != nullptr ? before->value : nothing, before != nullptr ? before->sd : 0);
+        set_quantity(data, "after_", after != nullptr ? after->value : nothing, after != nullptr ? after->sd : 0);
+        const double change = before != nullptr && after != nullptr ? 100 * (after->value - before->value) / std::abs(before->value) : nothing;
         data.set("has_change", std::isfinite(change));
-        set(data, "change", fmt::format("{:+.1f}", std::isfinite(change) ? change : 0.0));
+        set_text(data, "change", fmt::format("{:+.1f}", std::isfinite(change) ? change : 0.0));
         list.push_back(data);
     }
     return list;
@@ -355,27 +281,23 @@ std::string report_html(const Discovery& discovery, const model::Model& model, c
                         Diagnostics& diagnostics) {
     Figures figures(draw, diagnostics);
     Data page;
-    page.set("colour_measured", std::string(colour::measured));
-    page.set("colour_before", std::string(colour::before));
-    page.set("colour_after", std::string(colour::after));
-    page.set("colour_without", std::string(colour::without));
-    page.set("colour_law", std::string(colour::law));
-    set(page, "model_name", model.name);
-    set(page, "model_summary", model.summary);
+    set_style(page);
+    set_text(page, "model_name", model.name);
+    set_text(page, "model_summary", model.summary);
     page.set("has_model_summary", !model.summary.empty());
-    set(page, "model_file", files.model);
-    set(page, "recording_file", files.recordings[0]);
+    set_text(page, "model_file", files.model);
+    set_text(page, "recording_file", files.recordings[0]);
     page.set("several_recordings", discovery.recordings.size() > 1);
-    set(page, "recording_count", std::to_string(discovery.recordings.size()));
+    set_text(page, "recording_count", std::to_string(discovery.recordings.size()));
     set_list(page, "recordings", recordings_data(discovery));
-    set(page, "samples", std::to_string(recording.samples()));
-    set(page, "period", fmt::format("{:.6g}", recording.period));
-    set(page, "train_from", fmt::format("{:.6g}", discovery.first().train_from_s));
-    set(page, "train_to", fmt::format("{:.6g}", discovery.first().train_to_s));
-    set(page, "test_from", fmt::format("{:.6g}", discovery.first().test_from_s));
-    set(page, "test_to", fmt::format("{:.6g}", discovery.first().test_to_s));
+    set_text(page, "samples", std::to_string(recording.samples()));
+    set_text(page, "period", fmt::format("{:.6g}", recording.period));
+    set_text(page, "train_from", fmt::format("{:.6g}", discovery.first().train_from_s));
+    set_text(page, "train_to", fmt::format("{:.6g}", discovery.first().train_to_s));
+    set_text(page, "test_from", fmt::format("{:.6g}", discovery.first().test_from_s));
+    set_text(page, "test_to", fmt::format("{:.6g}", discovery.first().test_to_s));
 
-    set(page, "verdict", name(discovery.verdict));
+    set_text(page, "verdict", name(discovery.verdict));
     for (const Verdict v : {Verdict::named, Verdict::ambiguous, Verdict::none, Verdict::unknown}) page.set(name(v), discovery.verdict == v);
     page.set("has_after", !discovery.effects.empty());
     page.set("several_effects", discovery.effects.size() > 1);
@@ -383,7 +305,7 @@ std::string report_html(const Discovery& discovery, const model::Model& model, c
     set_list(page, "alternatives", alternatives_data(discovery));
     set_list(page, "experiments", texts_data("experiment", discovery.experiments));
     set_list(page, "doubts", texts_data("doubt", discovery.doubts));
-    set(page, "doubt_count", std::to_string(discovery.doubts.size()));
+    set_text(page, "doubt_count", std::to_string(discovery.doubts.size()));
     page.set("several_doubts", discovery.doubts.size() > 1);
     set_gap(page, discovery);
     set_runner_up(page, discovery);
@@ -393,27 +315,24 @@ std::string report_html(const Discovery& discovery, const model::Model& model, c
     set_list(page, "laws", residuals_data(discovery, figures, [](const EquationResidual& r) { return law_figure(r); }));
     set_list(page, "where", where_data(discovery));
     set_list(page, "evidence", evidence_data(discovery));
-    set(page, "evidence_left_out", std::to_string(discovery.evidence.size() > most_evidence ? discovery.evidence.size() - most_evidence : 0));
+    set_text(page, "evidence_left_out", std::to_string(discovery.evidence.size() > most_evidence ? discovery.evidence.size() - most_evidence : 0));
     page.set("evidence_is_cut", discovery.evidence.size() > most_evidence);
     set_list(page, "parameters", parameters_data(discovery));
     set_list(page, "patch", patch_data(files.patch));
-    page.set("no_gnuplot", figures.missing());
-    page.set("figure_failed", figures.failed());
+    figures.set_complaints(page);
 
     const std::string amended = files.amended.empty() ? files.model : files.amended;
     const std::string out = files.directory.empty() ? "." : files.directory;
     page.set("is_amended", !files.amended.empty());
-    set(page, "amended_file", files.amended);
-    set(page, "model_word", shell_word(files.model));
-    set(page, "recording_word", shell_word(files.recordings[0]));
-    std::string words;
-    for (const std::string& file : files.recordings) words += (words.empty() ? "" : " ") + shell_word(file);
-    set(page, "recording_words", words);
-    set(page, "amended_word", shell_word(amended));
-    set(page, "patch_word", shell_word(files.patch_file));
-    set(page, "directory_word", shell_word(out));
-    set(page, "estimator_word", shell_word(out + "/estimator"));
-    set(page, "estimates_word", shell_word(out + "/estimates.csv"));
+    set_text(page, "amended_file", files.amended);
+    set_text(page, "model_word", shell_word(files.model));
+    set_text(page, "recording_word", shell_word(files.recordings[0]));
+    set_text(page, "recording_words", shell_words(files.recordings));
+    set_text(page, "amended_word", shell_word(amended));
+    set_text(page, "patch_word", shell_word(files.patch_file));
+    set_text(page, "directory_word", shell_word(out));
+    set_text(page, "estimator_word", shell_word(out + "/estimator"));
+    set_text(page, "estimates_word", shell_word(out + "/estimates.csv"));
     page.set("no_window", !model.window.has_value());
     return generator::render("report/discover.html.mustache", page);
 }

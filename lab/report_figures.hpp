@@ -7,30 +7,14 @@
 #include "generator/model.hpp"
 #include "lab/discovery.hpp"
 #include "lab/figure.hpp"
+#include "lab/output_figure.hpp"
 #include "lab/recording.hpp"
 
 namespace algest::lab {
 
-/// Colours that stay apart for the colour-blind and in print (Okabe and Ito).
-namespace colour {
-constexpr char measured[] = "#9a9a9a";
-constexpr char before[] = "#d55e00";
-constexpr char after[] = "#0072b2";
-constexpr char without[] = "#cc79a7";    ///< the amended model with the added terms left out
-constexpr char law[] = "#111111";
-}  // namespace colour
-
-/// Measured, before and after over the test stretch, and the errors below with the noise band; `noise` in the signal's unit, 0: not
-/// declared. Where the stretch is too dense to be read, a detail stands beside it, where the model as it was is off most.
-struct TestFigure {
-    Figure figure;
-    double noise;            ///< standard deviation, in the signal's unit
-    bool detail;
-    bool before_diverges;    ///< its free run ends or leaves the picture inside the test stretch
-    bool after_diverges;
-};
+/// Measured, before and after over the test stretch, and the errors below.
 /// Nullopt where the signal is not measured or not simulated, or the test stretch has no sample.
-std::optional<TestFigure> test_figure(const Discovery& discovery, const model::Model& model, const Recording& recording, const OutputGap& output);
+std::optional<OutputFigure> test_figure(const Discovery& discovery, const model::Model& model, const Recording& recording, const OutputGap& output);
 
 /// The residual of an equation over time, with the noise band and the stretches. Nullopt without windows.
 std::optional<Figure> time_figure(const Discovery& discovery, const EquationResidual& residual);

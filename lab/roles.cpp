@@ -18,8 +18,8 @@ using units::Unit;
 Unit unit_of(const model::Signal& signal) { return signal.unit.empty() ? Unit() : Unit::parse(signal.unit).value_or(Unit()); }
 
 void find_highest(const formula::Formula& f, const model::Model& model, Moved& out) {
-    if (f->kind == formula::Kind::call && f->name == "der") {
-        const int order = order_of_derivative(f);
+    if (formula::is_derivative(f)) {
+        const int order = formula::derivative_order(f);
         if (order > out.order) out = {model.signal_index(f->arguments[0]->name), order};
     }
     for (const formula::Formula& a : f->arguments) find_highest(a, model, out);
@@ -82,8 +82,6 @@ std::vector<Filler> fillers_of_output(const std::string& kind, const model::Mode
 
 }  // namespace
 
-int order_of_derivative(const formula::Formula& der) { return der->arguments.size() > 1 ? cln::cl_I_to_int(cln::numerator(der->arguments[1]->value)) : 1; }
-
 bool fits(const Unit& unit, const std::string& wanted) {
     const auto w = Unit::parse(wanted);
     return w && unit.same_dimension(*w);
@@ -99,7 +97,7 @@ Moved moved(const model::Model& model, const model::Equation& e) {
 int integral_of(const model::Model& model, int speed) {
     for (const model::Equation& e : model.equations) {
         const auto is_rate = [&](const formula::Formula& a, const formula::Formula& b) {
-            return a->kind == formula::Kind::call && a->name == "der" && a->arguments.size() == 1 && b->kind == formula::Kind::name && model.signal_index(b->name) == speed;
+            return formula::is_derivative(a) && formula::derivative_order(a) == 1 && b->kind == formula::Kind::name && model.signal_index(b->name) == speed;
         };
         if (is_rate(e.sides.left, e.sides.right)) return model.signal_index(e.sides.left->arguments[0]->name);
         if (is_rate(e.sides.right, e.sides.left)) return model.signal_index(e.sides.right->arguments[0]->name);

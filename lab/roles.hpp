@@ -16,9 +16,6 @@ struct Moved {
 };
 Moved moved(const model::Model& model, const model::Equation& equation);
 
-/// Order of the derivative that a der() is.
-int order_of_derivative(const formula::Formula& der);
-
 /// The signal x with an equation der(x) = speed; -1: there is none.
 int integral_of(const model::Model& model, int speed);
 

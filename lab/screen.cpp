@@ -21,6 +21,7 @@ constexpr double least_of_its_own = 1e-4;         ///< of an effect's slope that
 constexpr double probe = 0.02;                    ///< of what drives an equation, or of a value that is replaced
 constexpr double unsized_probe = 1e-3;            ///< where nothing tells its size, to begin with
 constexpr std::size_t lines_that_are_tried = 2;   ///< of each spectrum
+constexpr double one_line = 4;                    ///< widths, within which two lines are one
 constexpr double price_of_a_scan = 1.5;   ///< a scan finds something in any noise
 constexpr double least_to_sharpen = 10;           ///< F statistic from which on a scanned value is worth placing between those of the scan
 constexpr std::size_t most_scanned_by_run = 16;
@@ -65,16 +66,18 @@ public:
             const std::vector<double> scans = effect.scans.empty() ? std::vector<double>{0.0} : effect.scans[0].spectrum ? lines(binding) : scan_values(effect.scans[0], counted_in(effect.scans[0], binding));
             // Rows do not see a state, and what equations share they see one by one; a scan's value they know better than a run that has gone astray.
             const bool by_rows = effect.rewrite == Rewrite::add_term || (!effect.scans.empty() && effect.states.empty()) || effect.rewrite == Rewrite::free_constant;
+            std::vector<Candidate> weighed;
             for (const double scan : by_rows ? scans : std::vector<double>()) {
-                Candidate c = weigh(binding, scan);
-                if (scans.size() > 1) c.strength /= price_of_a_scan;
-                if (c.strength > best.strength || c.strength < 0) best = std::move(c);
+                weighed.push_back(weigh(binding, scan));
+                if (scans.size() > 1) weighed.back().strength /= price_of_a_scan;
+                if (weighed.back().strength > best.strength || weighed.back().strength < 0) best = weighed.back();
             }
             if (best.strength < 0) continue;
             if (best.strength > 0 && !effect.scans.empty() && effect.scans[0].spectrum) {
-                const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
-                best = sharpened(std::move(best), -0.5 * width, 0.5 * width);
-            } else if (best.strength > least_to_sharpen && !effect.scans.empty() && effect.scans[0].fitted) {
+                for (Candidate& wave : waves(std::move(weighed))) out.push_back(std::move(wave));
+                continue;
+            }
+            if (best.strength > least_to_sharpen && !effect.scans.empty() && effect.scans[0].fitted) {
                 best = sharpened(std::move(best), below(scans, best.scan) - best.scan, above(scans, best.scan) - best.scan);
             }
             if (best.strength == 0 && !effect.scans.empty() && scans.size() <= most_scanned_by_run) best.scans = scans;
@@ -200,12 +203,25 @@ private:
         return out;
     }
 
-    /// False within four line widths of a wave that the base has already: what is left there is that wave's own inaccuracy.
+    /// Lines that are more than one line, strongest first, each placed anew: the strongest in the rows may be of their own making, where a
+    /// regressor's noise meets what drives the machine. The free run tells.
+    std::vector<Candidate> waves(std::vector<Candidate> weighed) {
+        std::stable_sort(weighed.begin(), weighed.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
+        std::vector<Candidate> out;
+        for (Candidate& c : weighed) {
+            const bool apart = std::all_of(out.begin(), out.end(), [&](const Candidate& o) { return std::abs(o.scan - c.scan) > one_line * width(); });
+            if (apart && c.strength > 0 && out.size() < lines_that_are_tried) out.push_back(sharpened(std::move(c), -0.5 * width(), 0.5 * width()));
+        }
+        return out;
+    }
+
+    double width() const { return line_width(bench_.parts().fitted.size(), base_.bench.drive.period); }
+
+    /// False beside a wave that the base has already: what is left there is that wave's own inaccuracy.
     bool is_new(const Binding& binding, double frequency) const {
-        const double width = line_width(bench_.parts().fitted.size(), base_.bench.drive.period);
         for (const Amendment& a : base_.amendments) {
             if (a.effect != binding.effect->name || a.equations != binding.equations) continue;
-            for (const NewName& n : a.names) if (n.constant && std::abs(n.value - frequency) < 4 * width) return false;
+            for (const NewName& n : a.names) if (n.constant && std::abs(n.value - frequency) < one_line * width()) return false;
         }
         return true;
     }
@@ -443,7 +459,7 @@ std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::
     if (bench.yardstick() != Yardstick::free_run) return out;
     const Slope slope(bench, base);
     for (Candidate& c : out) if (!bench.used_up()) slope.weigh(c);
-    for (Candidate& c : rest) if ((c.binding.effect->scans.empty() || !c.scans.empty()) && !bench.used_up()) slope.weigh(c);   // else the scan's value is the weak form's to find
+    for (Candidate& c : rest) if ((c.binding.effect->scans.empty() || !c.scans.empty() || c.strength > 0) && !bench.used_up()) slope.weigh(c);   // else the weak form had to find the scan's value
     std::stable_sort(rest.begin(), rest.end(), [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
     std::size_t taken = 0;
     for (Candidate& c : rest) {

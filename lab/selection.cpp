@@ -7,6 +7,7 @@
 
 #include "lab/golden_section.hpp"
 #include "lab/noise.hpp"
+#include "lab/precedence.hpp"
 #include "lab/screen.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
@@ -40,12 +41,6 @@ struct Base {
 std::set<std::string> identities(const Variant& v) {
     std::set<std::string> out;
     for (const Amendment& a : v.amendments) out.insert(identity(a));
-    return out;
-}
-
-int added_parameters(const Variant& v) {
-    int out = 0;
-    for (const Amendment& a : v.amendments) out += static_cast<int>(a.names.size());
     return out;
 }
 
@@ -95,17 +90,6 @@ Evidence evidence_of(const Variant& v, const Variant& base, double strength, int
 bool indistinguishable(const Variant& best, const Variant& other) {
     const double ratio = other.score.nrmse / best.score.nrmse;
     return ratio < alike || (ratio < clearly_worse && significance(best.score, other.score) < surely_worse);
-}
-
-/// True when the files of the effects say that recordings may not tell them apart.
-bool are_rivals(const Effect& a, const Effect& b) {
-    const auto names = [](const Effect& one, const Effect& other) { return std::any_of(one.rivals.begin(), one.rivals.end(), [&](const Rival& r) { return r.name == other.name; }); };
-    return names(a, b) || names(b, a);
-}
-
-/// True when the file of an effect lets another one be named in its place where both explain alike.
-bool yields(const Effect& a, const Effect& to) {
-    return std::any_of(a.rivals.begin(), a.rivals.end(), [&](const Rival& r) { return r.first && r.name == to.name; });
 }
 
 /// With every scanned frequency placed anew beside the other effects: it was found before they were there.
@@ -179,6 +163,7 @@ bool worth_it(const Score& a, const Score& b, double gain) {
 
 Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const StepReport& progress) {
     Selection out{nominal, {}, {}, false};
+    const Precedence precedence(effects);
     std::vector<Base> beside = {{nominal, {}}};
     const bool guessed = bench.yardstick() == Yardstick::free_run && guesses_noise(nominal.model, nominal.bench);
     const auto gain_of = [&](std::size_t effects_in_all) { return guessed && effects_in_all > 1 ? needed_gain_of_further : needed_gain; };
@@ -214,19 +199,11 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         std::vector<std::pair<bool, double>> merit;   // what is worth adding comes first: the criterion counts the rows of a poor fit as few
         for (const Variant& v : fitted) merit.emplace_back(worth_it(v.score, out.best.score, gain), criterion(v, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
-        // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does, and so does dry friction that falls:
-        // what hangs on the machine, adds to the model instead of bending it, and has less to fit, goes first where both explain alike.
-        const auto effect_of = [&](const Variant& v) -> const Effect& {
-            return *std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == v.amendments.back().effect; });
-        };
-        const auto held_back = [&](const Variant& v) { return effect_of(v).outside || effect_of(v).flexible(); };
-        const auto freedom = [&](const Variant& v) { return std::pair(held_back(v), added_parameters(v)); };
+        // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does, and so does dry friction that falls.
+        const auto contender = [&](std::size_t k) { return Contender{&fitted[k], out.evidence[row[k].back()].strength}; };
         const Variant& nearest = fitted[order[0]];
         for (std::size_t k = 1; k < order.size(); ++k) {
-            const Variant& first = fitted[order[0]];
-            const Variant& other = fitted[order[k]];
-            const bool plainer = freedom(other) < freedom(first) || (freedom(other) == freedom(first) && yields(effect_of(first), effect_of(other)));
-            if (plainer && indistinguishable(nearest, other)) std::swap(order[0], order[k]);
+            if (precedence.before(contender(order[k]), contender(order[0])) && indistinguishable(nearest, fitted[order[k]])) std::swap(order[0], order[k]);
         }
         const Variant& top = fitted[order[0]];
         std::vector<Base> next;
@@ -246,12 +223,11 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         out.as_well.clear();
         for (const std::size_t k : order) {
             if (k == order[0] || !indistinguishable(top, fitted[k])) continue;
-            if (held_back(fitted[k]) > held_back(top) || yields(effect_of(fitted[k]), effect_of(top))) {
-                if (are_rivals(effect_of(top), effect_of(fitted[k]))) out.as_well.push_back(effect_of(fitted[k]).name);
-            } else if (freedom(fitted[k]) <= freedom(top)) {
-                out.rivals.push_back(fitted[k]);
-                out.evidence[row[k].back()].rival = true;
-            }
+            const Precedence::Standing standing = precedence.beside(contender(order[0]), contender(k));
+            if (standing == Precedence::Standing::as_well) out.as_well.push_back(precedence.doubt(top, fitted[k]));
+            if (standing != Precedence::Standing::rival) continue;
+            out.rivals.push_back(fitted[k]);
+            out.evidence[row[k].back()].rival = true;
         }
         out.best = sharply_switched(bench, sharpened(bench, top, nominal, effects));
         beside = std::move(next);

@@ -19,7 +19,7 @@ struct Selection {
     std::vector<Variant> rivals;        ///< that the validation rows do not tell from it
     std::vector<Evidence> evidence;
     bool cut_short;                     ///< the effort of the bench was used up before every candidate was tried
-    std::vector<std::string> as_well = {};   ///< effects that explain as much as the plainer one that was chosen
+    std::vector<std::string> as_well = {};   ///< doubts: what explains as much as what was chosen, and is the less plain account
 };
 
 /// True when a is so much nearer than b that adding something to b is worth it: its error surely below `gain` times b's.

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "generator/source_text.hpp"
+
 namespace algest::lab {
 
 int character_column(std::string_view line, std::size_t offset) {
@@ -57,6 +59,14 @@ bool TextLines::refuse(Position at, const std::string& what, const std::string& 
     return false;
 }
 
+bool TextLines::check_encoding() {
+    const bool ascii = std::none_of(line_.begin(), line_.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80U; });
+    if (ascii) return true;   // nearly every line: no need of a copy
+    const auto at = model::not_utf8(std::string(line_));
+    return !at || refuse({number_, at->column}, "a byte that is no UTF-8: the file is in another encoding",
+                         "the same text in UTF-8; where it was Latin-1: iconv -f latin1 -t utf-8 OLD > NEW");
+}
+
 bool TextLines::check_line_end(bool has_end) {
     const bool crlf = has_end && line_.ends_with('\r');
     if (crlf) line_.remove_suffix(1);
@@ -102,7 +112,7 @@ bool TextLines::next() {
         return refuse({number_, 1}, "the line is longer than 1 MiB", "a row of numbers, one line a sample");
     }
     begin_ = has_end ? end + 1 : buffer_.size();
-    return check_line_end(has_end);
+    return check_encoding() && check_line_end(has_end);
 }
 
 }  // namespace algest::lab

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A text file, gzipped or not, line by line. What no recording may contain is refused at the line where it stands, without reading on: a
-// line without end, a NUL byte, UTF-16, line ends of two kinds.
+// line without end, a NUL byte, UTF-16 and other encodings than UTF-8, line ends of two kinds.
 #pragma once
 #include <zlib.h>
 
@@ -39,6 +39,7 @@ private:
 
     bool read_block();
     bool refuse(Position at, const std::string& what, const std::string& right);
+    bool check_encoding();
     bool check_line_end(bool has_end);
 
     std::string path_;

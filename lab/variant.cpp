@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/variant.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -47,7 +49,7 @@ std::vector<double> declared_values(const model::Model& model) {
 
 /// der(x) = v.
 bool is_kinematic(const model::Model& model, const model::Equation& e) {
-    const auto is_rate = [](const formula::Formula& f) { return f->kind == formula::Kind::call && f->name == "der" && f->arguments.size() == 1; };
+    const auto is_rate = [](const formula::Formula& f) { return formula::is_derivative(f) && formula::derivative_order(f) == 1; };
     const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
     return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
 }
@@ -119,6 +121,11 @@ std::optional<Parts> parts_of(const Recording& recording, const std::optional<st
     Parts out{};
     out.train = train ? Rows{row(train->first), row(train->second)} : Rows{0, samples * 7 / 10};
     out.test = test ? Rows{row(test->first), std::min(row(test->second) + 1, samples)} : Rows{out.train.end, samples};
+    if (train && !test && out.train.end + least_test > samples && out.train.end >= out.train.begin + least_train) {
+        diagnostics.error(recording.file, {}, fmt::format("--train {:g}:{:g} leaves {} samples to test on: the recording goes from {:.6g} s to {:.6g} s", train->first, train->second, samples - out.train.end, recording.t.front(), recording.t.back()),
+                          fmt::format("train on less, e.g. --train {:g}:{:.3g}; at least {} samples behind it are needed", train->first, recording.t[out.train.begin + (samples - out.train.begin) * 7 / 10], least_test));
+        return std::nullopt;
+    }
     if (out.train.end <= out.train.begin + least_train || out.test.end <= out.test.begin + least_test) {
         const auto size = [](const Rows& r) { return std::to_string(r.end > r.begin ? r.end - r.begin : 0); };
         diagnostics.error(recording.file, {}, "too short: " + size(out.train) + " samples to train on, " + size(out.test) + " to test on",
@@ -139,6 +146,7 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     Diagnostics quiet;
     Diagnostics& said = amendments.empty() ? diagnostics : quiet;
     auto model = model::read_from_text(text, path_, false, said);
+    if (!model && !amendments.empty()) unwritten_.insert(amendments.back().effect);
     if (!model) return std::nullopt;
     if (amendments.empty()) find_idle_kinematics(*model);
     const model::Model whole = *model;
@@ -178,7 +186,7 @@ std::optional<model::Model> Workbench::runnable(const std::string& text) const {
 void Workbench::find_idle_kinematics(const model::Model& model) {
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
         const formula::Formula& left = model.equations[e].sides.left;
-        if (left->kind != formula::Kind::call || left->name != "der" || left->arguments.size() != 1) continue;
+        if (!formula::is_derivative(left) || formula::derivative_order(left) != 1) continue;
         const model::Signal& x = *model.signal(left->arguments[0]->name);
         bool used = false;
         for (std::size_t other = 0; other < model.equations.size(); ++other) {

@@ -103,6 +103,9 @@ public:
     Yardstick yardstick() const { return yardstick_; }
     void measure_by(Yardstick yardstick) { yardstick_ = yardstick; }
 
+    /// Effects whose amended text was no model: nothing is known of them.
+    const std::set<std::string>& unwritten() const { return unwritten_; }
+
     std::size_t recordings() const { return trials_.size(); }
     const Parts& parts(std::size_t recording = 0) const { return trials_[recording].parts; }
     const Recording& recording(std::size_t k = 0) const { return *trials_[k].recording; }
@@ -129,6 +132,7 @@ private:
     std::string path_;
     std::vector<Trial> trials_;
     std::set<std::string> idle_;
+    std::set<std::string> unwritten_;
     Yardstick yardstick_ = Yardstick::free_run;
     Effort effort_;
 };

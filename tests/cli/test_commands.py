@@ -129,6 +129,31 @@ class Generate(CommandLine):
         for file in self.FILES:
             self.assertEqual((self.folder / "generated" / file).read_bytes(), (self.folder / "a/b" / file).read_bytes())
 
+    def test_says_what_each_engine_costs(self):
+        def costs(window, *options):
+            self.write("sized.toml", RL_CIRCUIT.replace("window = 0.05", f"window = {window}"))
+            [model] = self.algest_json("generate", "sized.toml", *options)["models"]
+            return {cost["engine"]: cost for cost in model["cost"]}, [cost["engine"] for cost in model["cost"]]
+        short, order = costs(0.05)
+        long, _ = costs(5)
+        self.assertEqual(order, ["fir", "moments"])
+        self.assertEqual(costs(5, "--engine", "moments")[1], ["moments", "fir"])
+        # two rows of three functionals each, a product and a sum for each of 51 samples
+        self.assertEqual(short["fir"]["operations"], 2 * 6 * 51)
+        self.assertEqual(long["fir"]["operations"], 2 * 6 * 5001)
+        self.assertEqual(short["fir"]["tables"] * 5001, long["fir"]["tables"] * 51)
+        for what in ("operations", "tables"):
+            self.assertEqual(short["moments"][what], long["moments"][what])
+        self.assertLess(long["moments"]["memory"], long["fir"]["memory"] / 1.9)   # each sample once, not twice
+        _, err = self.algest("generate", "sized.toml")
+        self.assertRegex(err, "engine fir: 60012 operations a sample, [0-9]+ bytes of memory, [0-9]+ of tables; moments: ")
+
+    def test_a_model_that_moments_cannot_serve_is_generated_with_fir(self):
+        self.write("simpson.toml", RL_CIRCUIT + '[estimator]\nquadrature = "simpson"\n')
+        _, err = self.algest("generate", "simpson.toml", "--engine", "moments")
+        self.assertIn("engine fir instead of moments: Simpson's weights alternate", err)
+        self.assertIn("engine fir", (self.folder / "generated/rl/rl.hpp").read_text())
+
     def test_check_writes_nothing_and_shows_the_difference(self):
         out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
         self.assertIn("rl.hpp", out)
@@ -198,7 +223,7 @@ class Replay(CommandLine):
         self.assertEqual((value["samples"], value["period_s"]), (200, 0.001))
         self.assertEqual(value["status"], {"filling": 50, "ok": 150, "singular": 0, "rejected": 0})   # 51 samples fill 0.05 s
         for parameter, (name, unit, true_value) in zip(value["parameters"], (("R", "ohm", R), ("L", "H", L))):
-            self.assertEqual(list(parameter), ["name", "unit", "last", "median", "sd"])
+            self.assertEqual(list(parameter), ["name", "unit", "last", "median", "sd", "bias"])
             self.assertEqual((parameter["name"], parameter["unit"], parameter["sd"]), (name, unit, None))
             self.assertAlmostEqual(parameter["last"] / true_value, 1, delta=1e-3)
             self.assertAlmostEqual(parameter["median"] / true_value, 1, delta=1e-3)
@@ -224,7 +249,7 @@ class Replay(CommandLine):
         self.assertEqual(float(last[2]), value["condition"]["last"])
 
     def test_standard_deviations_where_noise_is_declared(self):
-        found = []
+        found, biases = [], []
         for noise in ("1e-3", "2e-3"):
             self.write("noisy.toml", RL_CIRCUIT.replace('i = { unit = "A" }', f'i = {{ unit = "A", noise = {noise} }}'))
             value = self.algest_json("replay", "noisy.toml", "coil.csv", "-o", "e.csv")
@@ -237,10 +262,13 @@ class Replay(CommandLine):
             alone = self.algest_json("replay", "noisy.toml", "coil.csv")     # without a CSV: that of the last estimate
             self.assertEqual([p["sd"] for p in alone["parameters"]], found[-1])
             out, _ = self.algest("replay", "noisy.toml", "coil.csv")
-            self.assertRegex(out, r"(?m)^parameter +last +sd +median")
+            self.assertRegex(out, r"(?m)^parameter +last +sd +bias +median")
+            biases.append([p["bias"] for p in value["parameters"]])
         for one, two in zip(*found):     # twice the noise: linear, but for the rounding of 1e-3 itself
             self.assertGreater(one, 0)
             self.assertAlmostEqual(two / one, 2, delta=1e-9)
+        for one, two in zip(*biases):    # of second order in the noise
+            self.assertAlmostEqual(two / one, 4, delta=1e-9)
 
     def test_a_stretch(self):
         value = self.algest_json("replay", "rl.toml", "coil.csv", "--from", "0.1", "--to", "0.16")

@@ -76,6 +76,7 @@ CASES = [
     ("quote inside a field", with_line_61(f'{T},1"2,{I}'), 61, AT_U + 1, "quotes"),
     ("NUL byte", with_line_61(f"{T},\0,{I}"), 61, AT_U, "NUL"),
     ("UTF-16", GOOD.encode("utf-16"), 1, 1, "UTF-16"),
+    ("Latin-1 in the header", "t [s],T [\u00b0C],x [1]\n".encode("latin-1") + GOOD.split("\n", 1)[1].encode(), 1, 10, "iconv -f latin1"),
     ("UTF-16 without byte-order mark", GOOD.encode("utf-16-le"), 1, 2, "UTF-16"),
     ("LF among CRLF", GOOD.replace("\n", "\r\n").replace("\r\n", "\n", 61).replace("\n", "\r\n", 60), 61, len(ROW_60) + 1, "ends with LF"),
     ("CRLF among LF", GOOD.replace("\n", "\r\n", 61).replace("\r\n", "\n", 60), 61, len(ROW_60) + 1, "ends with CRLF"),
@@ -83,7 +84,7 @@ CASES = [
     ("a line of 100 MB", GOOD + "1" * 100_000_000, 102, 1, "longer than 1 MiB"),
     ("a first line of 100 MB", "," * 100_000_000, 1, 1, "longer than 1 MiB"),
     ("100 MB of zeros", b"\0" * 100_000_000, 1, 1, "NUL"),
-    ("an image", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 1, 1, "no column `t`"),
+    ("an image", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 1, 1, "no UTF-8"),
     ("terminal commands in a field", with_line_61(f"{T},\x1b[31m,{I}"), 61, AT_U, "'?[31m' is not a number"),
 ]
 

@@ -86,7 +86,7 @@ law = "-K*y"
 }
 
 TEST_CASE("output: a model in which nothing moves shows what its formulas make of the recording") {
-    Scene scene("name = \"m\"\n[sampling]\nperiod = 0.01\n[signals]\nu = { unit = \"m\" }\ny = { unit = \"m\" }\n[parameters]\ng = { unit = \"1\", initial = 2 }\n"
+    Scene scene("name = \"m\"\n[sampling]\nperiod = 0.01\n[signals]\nu = { unit = \"m\" }\ny = { unit = \"m\" }\n[parameters]\ng = { unit = \"1/m\", initial = 2 }\n"
                 "[[equation]]\node = \"y = g*u*abs(u)\"\n");
     const FreeRun run = scene.run(30, {{"u", minus_three}});
     REQUIRE(run.samples == 30);

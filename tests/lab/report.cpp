@@ -250,6 +250,8 @@ TEST_CASE("quantities: digits by the standard deviation") {
     CHECK(text(3, 0) == "3||");
     CHECK(text(3.14159265, infinity) == "3.14159||");
     CHECK(text(0, 0.01) == "0.000|0.010|");
+    CHECK(text(0.0004, 0.013) == "0.0004|0.0130|");   // not 0.000: something was found, however unsure
+    CHECK(text(-3.2e-7, 2e-3) == "-0.0000003|0.0020000|");
     CHECK(text(0, 0) == "0||");
     CHECK(text(nan_value, 1) == "-||");
     CHECK(lab::three_digits(0.0040749) == "0.00407");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The host estimator and the compiled generated class, to the last bit: every model of models/, in double and in float, on
+// The host estimator and the compiled generated class, to the last bit: every model of models/, on both engines, in double and in float, on
 // samples among which some are not finite.
 #include <catch2/catch.hpp>
 
@@ -94,9 +94,9 @@ std::vector<S> compiled_answers(const plan::Plan& plan, const std::vector<S>& sa
 }
 
 template <class S>
-void compare(const std::string& model, plan::Scalar scalar) {
+void compare(const std::string& model, plan::Scalar scalar, const std::string& engine) {
     Diagnostics diagnostics;
-    const auto plan = generator::plan_from_model(model, {scalar, ""}, diagnostics);
+    const auto plan = generator::plan_from_model(model, {scalar, engine}, diagnostics);
     for (const Diagnostic& d : diagnostics.sorted()) UNSCOPED_INFO(d.text());
     REQUIRE(plan);
     if (plan->elimination) return;   // asks for operating points: tests/generated/operating_points.cpp
@@ -114,7 +114,7 @@ void compare(const std::string& model, plan::Scalar scalar) {
         rejected += host[k] == S(static_cast<int>(Status::rejected)) ? 1U : 0U;
         different += std::memcmp(host.data() + k, compiled.data() + k, width * sizeof(S)) != 0 ? 1U : 0U;
     }
-    INFO(model << (scalar == plan::Scalar::float64 ? ", double: " : ", float: ") << ok << " samples ok");
+    INFO(model << ", " << engine << (scalar == plan::Scalar::float64 ? ", double: " : ", float: ") << ok << " samples ok");
     CHECK(rejected == 3);
     CHECK(ok > 50);
     CHECK(different == 0);
@@ -124,11 +124,18 @@ void compare(const std::string& model, plan::Scalar scalar) {
 
 TEST_CASE("the host estimator and the generated class agree to the last bit") {
     std::size_t models = 0;
+    std::size_t on_moments = 0;
     for (const auto& entry : std::filesystem::directory_iterator(ALGEST_SOURCE "/models")) {
         if (entry.path().extension() != ".toml") continue;
         ++models;
-        compare<double>(entry.path().string(), plan::Scalar::float64);
-        compare<float>(entry.path().string(), plan::Scalar::float32);
+        for (const char* engine : {"fir", "moments"}) {
+            Diagnostics refused;
+            if (!generator::plan_from_model(entry.path().string(), {plan::Scalar::float64, engine, false}, refused)) continue;   // a functional without windows
+            on_moments += engine == std::string("moments") ? 1 : 0;
+            compare<double>(entry.path().string(), plan::Scalar::float64, engine);
+            compare<float>(entry.path().string(), plan::Scalar::float32, engine);
+        }
     }
     CHECK(models >= 6);
+    CHECK(on_moments == 7);   // dc_motor, magnetic_bearing, pendulum, pmsm_electrical, pmsm_inertia, positioning_axis, rl_circuit
 }

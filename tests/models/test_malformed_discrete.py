@@ -44,6 +44,8 @@ REFUSED = [
     ('[estimator]\nfunctional = "discrete"', "▸[estimator]", ["functional = \"discrete\""]),
     ('functional = "discrete"', 'functional = "discrete"\nsolve = "robust"', ["no S(t)"]),
     ('functional = "discrete"', 'functional = "discrete"\nuncertainty = true', ["uncertainty"]),
+    ('functional = "discrete"', 'functional = "discrete"\nengine = ▸"moments"', ["windows of the annihilator", "engine fir"]),
+    ("window = 1\n", "window = 1\ngrowing = ▸true\n", ["annihilator"]),
     ("window = 1\n", "window = ▸0.05\n", ["too short", "0.09 s"]),
     ('u = { unit = "V" }\n', 'u = { unit = "V" }\na1 = { unit = "V" }\n', ["unknown of [discrete]", "'a1'"]),
     ("[discrete]\n", "[parameters]\n▸R = { unit = \"ohm\" }\n[discrete]\n", ["[parameters] beside [discrete]"]),
@@ -70,7 +72,7 @@ class Discrete(ModelCase):
     def test_what_is_sound(self):
         for old, new in [("n = 2\n", "n = 2\n"), ('"q"', '"z"'), ("n = 2\n", "n = 12\nm = 12\nnumerator = 0\n"), ("n = 2\n", "n = 1\nm = 1\n"), ("n = 2\n", 'n = 2\ngamma = "2/3"\nskip = 3\nextra = 5\nderivatives = 5\n'),
                          ("n = 2\n", "n = 2\nrow_filter = { numerator = [0.1], denominator = [1, -0.9] }\n"), ('functional = "discrete"', 'functional = "discrete"\nsolve = "least_squares"'),
-                         ('functional = "discrete"', 'functional = "discrete"\nengine = "moments"')]:
+                         ('functional = "discrete"', 'functional = "discrete"\nengine = "fir"')]:
             with self.subTest(new=new):
                 self.write(MODEL.replace(old, new, 1).encode())
                 code, _, err, _ = self.run_algest("check", "m.toml", "--strict")

@@ -303,7 +303,7 @@ VALUES = [
     ("window of one period", coil("0.02", "▸0.001"), "shorter than two"),
     ("window shorter than a period", coil("0.02", "▸0.0005"), "shorter than two"),
     ("window of a million and one periods", coil("0.02", "▸1000.001"), "more than 1000000"),
-    ("growing window", coil("window = 0.02", "window = 0.02\ngrowing = ▸true"), "not supported by this version"),
+    ("growing window on tables", coil("window = 0.02", "window = 0.02\ngrowing = ▸true"), "needs engine moments"),
     ("growing that is a number", coil("window = 0.02", "window = 0.02\ngrowing = ▸1"), "true or false"),
     ("negative noise", coil('unit = "A"', 'unit = "A", noise = ▸-0.1'), "negative"),
     ("negative resolution", coil('unit = "A"', 'unit = "A", resolution = ▸-0.1'), "negative"),

@@ -48,6 +48,10 @@ struct Blueprint {
     RowSet<S> perturbation;   ///< rows whose residuals at the estimate are the perturbation's coefficients; none: rows == 0
     bool normalise = false;   ///< square: rows are divided by their largest entry, and the condition is that before columns are scaled
     Elimination<S> elimination = {};   ///< what the columns mean; otherwise empty
+    bool rows_published = false;   ///< push evaluates the rows that estimate needs, and publishes them: the windows are moments, which nobody else can read
+    int shortest = 0;              ///< samples of the shortest window that is solved, where windows grow; 0: they do not
+
+    constexpr int needed() const noexcept { return shortest > 0 ? shortest : rows.samples; }
 };
 
 /// Pushes that may fall into one reading of the windows without spoiling it.
@@ -69,7 +73,12 @@ constexpr int sum_scalars(Solve solve, int unknowns, int instants) noexcept {
 constexpr int published_scalars(Solve solve, int unknowns) noexcept {
     return solve == Solve::square ? 1 : published_slots * packed_size(unknowns + 1);
 }
-/// Scalars of scratch that push needs.
+/// The same where push publishes rows: those of the newest instant (square), and of the perturbation.
+constexpr int published_row_scalars(Solve solve, int rows, int unknowns, int perturbation_rows) noexcept {
+    const int solved = solve == Solve::square ? row_entries(rows, unknowns) : packed_size(unknowns + 1);
+    return published_slots * (solved + row_entries(perturbation_rows, unknowns));
+}
+/// Scalars of scratch that push needs. rows: of an instant; where push publishes rows, of the perturbation if they are more.
 constexpr int push_scratch(int rows, int unknowns) noexcept { return 2 * row_entries(rows, unknowns); }
 /// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
@@ -135,6 +144,54 @@ inline std::uint32_t pushes_since(const Progress& now, const Progress& then) noe
     return (__atomic_load_n(&now.sequence, __ATOMIC_RELAXED) - then.sequence + 1U) / 2U;
 }
 
+/// Scalars of one published copy.
+template <class S>
+constexpr int slot_scalars(const Blueprint<S>& blueprint) noexcept {
+    const RowSet<S>& rows = blueprint.rows;
+    const int perturbation = blueprint.perturbation.rows;
+    return blueprint.rows_published ? published_row_scalars(blueprint.solve, rows.rows, rows.unknowns, perturbation) / published_slots : packed_size(rows.unknowns + 1);
+}
+
+/// Drops what the windows and S(t) hold; the rows that least_squares absorbed so far stay.
+template <class S>
+inline void refuse(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
+    Progress& p = *memory.progress;
+    p.filled = 0;
+    p.rejected = 1;
+    if (blueprint.solve == Solve::robust) {
+        clear_gram(memory.sums, p.gram, blueprint.rows.unknowns);
+        p.absorbed = 0;
+    }
+}
+
+/// The copy that is published next.
+template <class S>
+inline S* next_slot(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
+    Progress& p = *memory.progress;
+    p.slot = p.slot + 1 == published_slots ? 0 : p.slot + 1;
+    return memory.published + p.slot * slot_scalars(blueprint);
+}
+
+/// Adds the rows of the newest instant (destroyed) to the sums of the solve, and publishes the sums; where the published copy goes on behind them.
+template <class S>
+inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noexcept {
+    const RowSet<S>& rows = blueprint.rows;
+    Progress& p = *memory.progress;
+    if (!all_finite(matrix, row_entries(rows.rows, rows.unknowns))) {
+        // Rows that overflow are left out: the sums would not recover from them.
+    } else if (blueprint.solve == Solve::robust) {
+        add_instant(memory.sums, p.gram, matrix, rows.rows, rows.unknowns, blueprint.solve_instants);
+        p.absorbed = gram_is_full(p.gram, blueprint.solve_instants) ? 1U : 0U;
+    } else {
+        add_rows(memory.sums, matrix, rows.rows, rows.unknowns, blueprint.keep);
+        p.absorbed = 1;
+    }
+    S* const slot = next_slot(blueprint, memory);
+    const int size = packed_size(rows.unknowns + 1);
+    for (int k = 0; k < size; ++k) slot[k] = memory.sums[k];
+    return slot + size;
+}
+
 }  // namespace detail
 
 /// Forgets everything. Call it while neither push nor estimate runs.
@@ -159,12 +216,7 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
     const int length = ring_length(rows.samples, blueprint.kept);
     detail::begin_write(p);
     if (sample == nullptr) {
-        p.filled = 0;
-        p.rejected = 1;
-        if (blueprint.solve == Solve::robust) {
-            clear_gram(memory.sums, p.gram, rows.unknowns);
-            p.absorbed = 0;
-        }
+        detail::refuse(blueprint, memory);
         detail::end_write(p);
         return;
     }
@@ -173,20 +225,8 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
     p.head = p.head + 1 == length ? 0 : p.head + 1;
     if (p.filled < rows.samples) ++p.filled;
     if (blueprint.solve != Solve::square && p.filled == rows.samples) {
-        const int entries = row_entries(rows.rows, rows.unknowns);
-        evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch, scratch + entries);
-        if (!all_finite(scratch, entries)) {
-            // Rows that overflow are left out: the sums would not recover from them.
-        } else if (blueprint.solve == Solve::robust) {
-            add_instant(memory.sums, p.gram, scratch, rows.rows, rows.unknowns, blueprint.solve_instants);
-            p.absorbed = gram_is_full(p.gram, blueprint.solve_instants) ? 1U : 0U;
-        } else {
-            add_rows(memory.sums, scratch, rows.rows, rows.unknowns, blueprint.keep);
-            p.absorbed = 1;
-        }
-        p.slot = p.slot + 1 == published_slots ? 0 : p.slot + 1;
-        const int size = packed_size(rows.unknowns + 1);
-        for (int k = 0; k < size; ++k) memory.published[p.slot * size + k] = memory.sums[k];
+        evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch, scratch + row_entries(rows.rows, rows.unknowns));
+        (void)detail::absorb(blueprint, memory, scratch);
     }
     detail::end_write(p);
 }
@@ -224,11 +264,23 @@ inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch)
     return {scratch, sums, factor, factor + rows.rows * rows.rows};
 }
 
+/// True when pushes have spoilt what was read of the windows, or of the rows that push publishes, since `then` was copied.
+template <class S>
+inline bool overtaken(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then) noexcept {
+    const int most = blueprint.rows_published ? published_slots - 1 : spare_samples;
+    return pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(most);
+}
+
 /// [P|Q] of the newest instant, whitened or normalised where that is asked for; false if it cannot be.
 template <class S>
-inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, int head, const EstimateScratch<S>& at) noexcept {
+inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, const EstimateScratch<S>& at) noexcept {
     const RowSet<S>& rows = blueprint.rows;
-    const WindowPosition window_at = newest(rows.samples, ring_length(rows.samples, blueprint.kept), head);
+    if (blueprint.rows_published) {
+        const S* const slot = memory.published + then.slot * slot_scalars(blueprint);
+        for (int i = 0; i < row_entries(rows.rows, rows.unknowns); ++i) at.matrix[i] = slot[i];
+        return true;
+    }
+    const WindowPosition window_at = newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head);
     evaluate_rows(rows, memory.rings, window_at, at.matrix, at.work);
     if (blueprint.normalise) return normalise_rows(at.matrix, rows.rows, rows.unknowns);
     if (blueprint.whiten_at.size == 0) return true;
@@ -259,7 +311,7 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
     Influence<S> by = {all_rows, gain, inverse, nullptr};
 
     if (blueprint.solve == Solve::square) {
-        if (!newest_rows(blueprint, memory, then.head, at)) return false;
+        if (!newest_rows(blueprint, memory, then, at)) return false;
         if (blueprint.whiten_at.size > 0) by.factor = at.factor;
         for (int i = 0; i < entries; ++i) all_rows[i] = at.matrix[i];
         for (int r = 0; r < rows.rows; ++r) {   // how theta moves with Q of row r
@@ -304,8 +356,13 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
 template <class S>
 inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* out) noexcept {
     const RowSet<S>& rows = blueprint.perturbation;
-    evaluate_rows(rows, memory.rings, newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head), scratch,
-                  scratch + row_entries(rows.rows, rows.unknowns));
+    const int entries = row_entries(rows.rows, rows.unknowns);
+    if (blueprint.rows_published) {
+        const S* const behind = memory.published + (then.slot + 1) * slot_scalars(blueprint) - entries;
+        for (int i = 0; i < entries; ++i) scratch[i] = behind[i];
+    } else {
+        evaluate_rows(rows, memory.rings, newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head), scratch, scratch + entries);
+    }
     for (int r = 0; r < rows.rows; ++r) out[r] = residual(scratch + r * (rows.unknowns + 1), lumped, rows.unknowns);
 }
 
@@ -325,7 +382,7 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
     const RowSet<S>& rows = blueprint.rows;
     const S none = std::numeric_limits<S>::infinity();
     if (!copy_progress(*memory.progress, then)) return {false, Status::filling, none};
-    const bool waits = then.rejected != 0U || then.filled < rows.samples || (blueprint.solve != Solve::square && then.absorbed == 0U);
+    const bool waits = then.rejected != 0U || then.filled < blueprint.needed() || (blueprint.solve != Solve::square && then.absorbed == 0U);
     if (waits) {
         if (blueprint.ratio.used) restart_ratio(memory.ratio);
         return {true, then.rejected != 0U ? Status::rejected : Status::filling, none};
@@ -336,12 +393,12 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
     const EstimateScratch<S> at = estimate_scratch_at(rows, scratch);
     Solved<S> solved = {false, none};
     if (blueprint.solve == Solve::square) {
-        const bool usable = newest_rows(blueprint, memory, then.head, at);
-        if (pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, none};
+        const bool usable = newest_rows(blueprint, memory, then, at);
+        if (overtaken(blueprint, memory, then)) return {false, Status::filling, none};
         if (usable) solved = solve_rows(at.matrix, rows.rows, n, at.work, lumped);
         if (blueprint.normalise && solved.regular) solved.condition = condition_before_scaling(at.matrix, n, at.work);
     } else {
-        for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * size + k];
+        for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * slot_scalars(blueprint) + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
         solved = blueprint.solve == Solve::robust          ? solve_gram(at.sums, n, at.work, lumped)
                  : blueprint.solve == Solve::least_squares ? solve_triangle(at.sums, n, at.work, lumped)
@@ -359,7 +416,7 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
     }
     if (good && blueprint.perturbation.rows > 0) perturbation_of(blueprint, memory, then, at.matrix, lumped, lumped + n);
     const bool reads_windows = blueprint.deviation_limit > S(0) || blueprint.perturbation.rows > 0;
-    if (reads_windows && pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, none};
+    if (reads_windows && overtaken(blueprint, memory, then)) return {false, Status::filling, none};
     return {true, good ? Status::ok : Status::singular, solved.condition};
 }
 

@@ -42,19 +42,14 @@ inline int largest_lag(const Noise<S>& noise) noexcept {
 /// of `input` too large; sample may be as low as -largest_lag for what enters late. Cost: channels of the input x functionals.
 template <class S>
 inline void noise_in_rows(const RowSet<S>& set, const Noise<S>& noise, const S* rings, WindowPosition at, int input, int sample, S* matrix) noexcept {
-    const int entries = set.rows * (set.unknowns + 1);
-    for (int i = 0; i < entries; ++i) matrix[i] = S(0);
+    clear_rows(set, matrix);
     for (const NoiseChannel<S>& channel : noise.channels) {
         const int k = sample + channel.lag;
         if (channel.input != input || k < 0 || k >= set.samples) continue;
         const S size = channel.partial == no_partial ? channel.factor : channel.factor * window(rings, channel.partial, at)[k];
         for (const Functional& f : set.functionals) {
             if (f.table == no_table || f.signal != channel.signal) continue;
-            const S value = set.tables[static_cast<int>(f.table) * set.samples + k] * size;
-            for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
-                const Term<S>& term = set.terms[i];
-                matrix[term.row * (set.unknowns + 1) + term.column] += term.factor * value;
-            }
+            add_functional(set, f, set.tables[static_cast<int>(f.table) * set.samples + k] * size, matrix);
         }
     }
 }

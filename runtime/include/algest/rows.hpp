@@ -53,34 +53,100 @@ inline S rounding_part(int samples) noexcept {
     return (S(8) + std::sqrt(S(samples) / S(8))) * (std::numeric_limits<S>::epsilon() / S(2));
 }
 
+/// The rows of one instant while functionals are added to them; row_entries each.
+template <class S>
+struct RowSums {
+    S* matrix;   ///< [P|Q]
+    S* size;     ///< sum of the absolute values in an entry
+};
+
+/// The rows before any functional is added.
+template <class S>
+inline void clear_rows(const RowSet<S>& set, S* matrix) noexcept {
+    const int entries = row_entries(set.rows, set.unknowns);
+    for (int i = 0; i < entries; ++i) matrix[i] = S(0);
+}
+template <class S>
+inline void clear_rows(const RowSet<S>& set, RowSums<S> to) noexcept {
+    clear_rows(set, to.matrix);
+    clear_rows(set, to.size);
+}
+
+/// Adds the value of one functional to the entries that it enters.
+template <class S>
+inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S* matrix) noexcept {
+    for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
+        const Term<S>& term = set.terms[i];
+        matrix[term.row * (set.unknowns + 1) + term.column] += term.factor * value;
+    }
+}
+/// The same with the sum of absolute values behind it.
+template <class S>
+inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S size, RowSums<S> to) noexcept {
+    for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
+        const Term<S>& term = set.terms[i];
+        const int entry = term.row * (set.unknowns + 1) + term.column;
+        to.matrix[entry] += term.factor * value;
+        to.size[entry] += std::abs(term.factor) * size;
+    }
+}
+
+/// Makes zero of entries that are no larger than `part` of their size, their own rounding: scaled to the size of data they would pass for some,
+/// where a kernel erases a signal at rest.
+template <class S>
+inline void drop_rounding(const RowSet<S>& set, S part, RowSums<S> of) noexcept {
+    const int entries = row_entries(set.rows, set.unknowns);
+    for (int i = 0; i < entries; ++i) {
+        if (std::abs(of.matrix[i]) <= part * of.size[i] && std::isfinite(of.size[i])) of.matrix[i] = S(0);
+    }
+}
+
+/// Dot products that are evaluated at once: more would not fit into sixteen vector registers.
+constexpr int most_dots = 3;
+
+/// Functionals from `first` on, at most most_dots, that read the same window.
+template <class S>
+inline int of_one_window(const RowSet<S>& set, int first) noexcept {
+    const auto reads = [&](int f) { return f < set.functionals.size && set.functionals[f].table != no_table && set.functionals[f].signal == set.functionals[first].signal; };
+    int count = 1;
+    while (count < most_dots && reads(first + count)) ++count;
+    return count;
+}
+
+/// Adds `count` functionals of one window, from `first` on.
+template <int count, class S>
+inline void add_dots(const RowSet<S>& set, int first, const S* samples, RowSums<S> to) noexcept {
+    const S* weights[count];
+    S values[count];
+    S sizes[count];
+    for (int t = 0; t < count; ++t) weights[t] = set.tables.data + static_cast<long>(set.functionals[first + t].table) * set.samples;
+    dots<count>(weights, samples, set.samples, values);
+    dot_sizes<count>(weights, samples, set.samples, sizes);
+    for (int t = 0; t < count; ++t) add_functional(set, set.functionals[first + t], values[t], sizes[t], to);
+}
+
 /// Evaluates all rows on the windows: matrix[row * (unknowns + 1) + column], the known side in the last column. An entry that is no
-/// larger than its own rounding is zero: scaled to the size of data it would pass for some, where a kernel erases a signal at rest.
+/// larger than its own rounding is zero.
 /// scratch: row_entries. Cost: functionals * (samples + 31) multiply-adds. Never fails; a value that is not finite passes through.
 template <class S>
 inline void evaluate_rows(const RowSet<S>& set, const S* rings, WindowPosition at, S* matrix, S* scratch) noexcept {
-    const int entries = row_entries(set.rows, set.unknowns);
-    S* const size = scratch;   // sum of the absolute values in an entry
-    for (int i = 0; i < entries; ++i) matrix[i] = size[i] = S(0);
-    for (const Functional& f : set.functionals) {
-        S value = S(1);
-        S value_size = S(1);
-        if (f.table != no_table) {
-            const S* const weights = set.tables.data + static_cast<long>(f.table) * set.samples;
-            const S* const samples = window(rings, f.signal, at);
-            value = dot(weights, samples, set.samples);
-            value_size = dot_size(weights, samples, set.samples);
+    const RowSums<S> sums = {matrix, scratch};
+    clear_rows(set, sums);
+    for (int f = 0; f < set.functionals.size;) {
+        const Functional& first = set.functionals[f];
+        if (first.table == no_table) {
+            add_functional(set, first, S(1), S(1), sums);
+            ++f;
+            continue;
         }
-        for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
-            const Term<S>& term = set.terms[i];
-            const int entry = term.row * (set.unknowns + 1) + term.column;
-            matrix[entry] += term.factor * value;
-            size[entry] += std::abs(term.factor) * value_size;
-        }
+        const S* const samples = window(rings, first.signal, at);
+        const int count = of_one_window(set, f);
+        if (count == 3) add_dots<3>(set, f, samples, sums);
+        else if (count == 2) add_dots<2>(set, f, samples, sums);
+        else add_dots<1>(set, f, samples, sums);
+        f += count;
     }
-    const S part = rounding_part<S>(set.samples);
-    for (int i = 0; i < entries; ++i) {
-        if (std::isfinite(size[i]) && std::abs(matrix[i]) <= part * size[i]) matrix[i] = S(0);
-    }
+    drop_rounding(set, rounding_part<S>(set.samples), sums);
 }
 
 }  // namespace algest

@@ -16,12 +16,13 @@ constexpr int solve_gram_scratch(int unknowns) noexcept { return unknowns * unkn
 /// Solves with the packed upper triangle of [P|Q]'[P|Q] (size unknowns + 1). S is scaled to a unit diagonal, so that
 /// pivots and condition speak of the data and not of units. Condition: sqrt(trace(S) trace(S^-1)) of the scaled S, which is
 /// |R|_F |R^-1|_F of all rows stacked, as the other solvers report it; S itself has its square. Rank test: a pivot at or
-/// below unknowns * epsilon. Fixed loops, no allocation, never throws. On `regular == false` the solution is untouched.
+/// below unknowns * epsilon. Fixed loops, no allocation, never throws; takes as long where S is singular. On `regular == false` the
+/// solution is untouched.
 /// Cost: about unknowns^3 / 2 operations and unknowns square roots.
 template <class S>
 inline Solved<S> solve_gram(const S* gram, int unknowns, S* scratch, S* solution) noexcept {
     const int n = unknowns;
-    const Solved<S> singular = {false, std::numeric_limits<S>::infinity()};
+    bool regular = true;
     S* lower = scratch;             // n x n, unit lower triangle L, D on the diagonal
     S* scale = scratch + n * n;
     S* x = scale + n;
@@ -29,16 +30,18 @@ inline Solved<S> solve_gram(const S* gram, int unknowns, S* scratch, S* solution
 
     for (int i = 0; i < n; ++i) {
         const S diagonal = gram[packed_index(n + 1, i, i)];
-        if (!(diagonal > S(0)) || !std::isfinite(diagonal)) return singular;
-        scale[i] = std::sqrt(diagonal);
+        const bool usable = diagonal > S(0) && std::isfinite(diagonal);
+        regular = regular && usable;
+        scale[i] = std::sqrt(usable ? diagonal : S(1));
     }
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j <= i; ++j) {
             S sum = i == j ? S(1) : gram[packed_index(n + 1, j, i)] / scale[i] / scale[j];
             for (int k = 0; k < j; ++k) sum -= lower[i * n + k] * lower[j * n + k] * lower[k * n + k];
             if (i == j) {
-                if (!(sum > smallest_pivot<S>(n))) return singular;
-                lower[i * n + i] = sum;
+                const bool usable = sum > smallest_pivot<S>(n);
+                regular = regular && usable;
+                lower[i * n + i] = usable ? sum : S(1);
             } else {
                 lower[i * n + j] = sum / lower[j * n + j];
             }
@@ -66,7 +69,7 @@ inline Solved<S> solve_gram(const S* gram, int unknowns, S* scratch, S* solution
     for (int i = n - 1; i >= 0; --i) {
         for (int k = i + 1; k < n; ++k) x[i] -= lower[k * n + i] * x[k];
     }
-    if (!all_finite(x, n)) return singular;
+    if (!regular || !all_finite(x, n)) return {false, std::numeric_limits<S>::infinity()};
     for (int i = 0; i < n; ++i) solution[i] = x[i] / scale[i];
     return {true, std::sqrt(S(n) * inverse_trace)};
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What `algest replay` answers of one recording: JSON for programs, text for people.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include "generator/plan.hpp"
+#include "lab/replay.hpp"
+
+namespace algest::cli {
+
+/// {"model", "recording", "samples", "period_s", "parameters": [{"name", "unit", "last", "median", "sd", "bias"}], "status", "condition", ...}
+nlohmann::ordered_json replay_json(const std::string& model, const std::string& recording, const plan::Plan& plan, const lab::Replay& replay,
+                                   const lab::ReplaySummary& summary);
+
+std::string replay_text(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary);
+
+}  // namespace algest::cli

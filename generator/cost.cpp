@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/cost.hpp"
+
+#include "algest/boxcar.hpp"
+#include "algest/delay_line.hpp"
+#include "algest/growing_moments.hpp"
+#include "algest/steady_state.hpp"
+#include "generator/blueprint.hpp"
+#include "generator/cpp_text.hpp"
+
+namespace algest::generator {
+
+namespace {
+
+using plan::Plan;
+
+bool twofold(const Plan& plan) { return plan.moments->accumulators == plan::Accumulators::twofold; }
+int rebuilt(const Plan& plan) { return twofold(plan) ? rebuilt_frames<Twofold<float>> : rebuilt_frames<double>; }
+
+/// Scalars and bytes of one instance, as the class lays them out (estimator.hpp.mustache).
+int instance_bytes(const Plan& plan) {
+    const int unknowns = static_cast<int>(plan.lumped.size());
+    const int signals = plan.rings();
+    int scalars = sum_scalars(plan.solve, unknowns, plan.solve_instants);
+    if (plan.moments) {
+        scalars += moment_ring(signals, plan.samples()) + 2 * (rebuilt(plan) + 1) * signals;
+        scalars += published_row_scalars(plan.solve, static_cast<int>(plan.rows.size()), unknowns, static_cast<int>(plan.perturbation.size()));
+    } else {
+        scalars += ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + published_scalars(plan.solve, unknowns);
+    }
+    scalars += 2 + static_cast<int>(plan.parameters.size());   // Estimate: status padded to a scalar, condition, parameters
+    if (plan.whiten) scalars += unknowns;
+    if (plan.ratio) scalars += ratio_scalars(true, unknowns);
+    int bytes = static_cast<int>(sizeof(Progress));
+    if (plan.moments) bytes += static_cast<int>(sizeof(MomentProgress)) + (rebuilt(plan) + (plan.moments->shortest > 0 ? 2 : 1)) * signals * (plan.moments->degree + 1) * accumulator_bytes;
+    if (plan.decimate > 1) {
+        scalars += boxcar_scalars(signals);
+        bytes += static_cast<int>(sizeof(BoxcarProgress));
+    }
+    if (plan.steady) {
+        scalars += steady_scalars(static_cast<int>(plan.steady->averaged.size()));
+        bytes += static_cast<int>(sizeof(SteadyProgress)) + 8;
+    }
+    if (plan.delayed()) {
+        scalars += static_cast<int>(plan.inputs.size());
+        for (const plan::Input& input : plan.inputs) scalars += input.differentiated ? 2 : 0;
+        bytes += 8;
+    }
+    if (plan.longest_wait() > 0) {
+        scalars += (plan.longest_wait() + 1) * static_cast<int>(plan.inputs.size());
+        bytes += 8;
+    }
+    if (!plan.past.empty()) {
+        scalars += static_cast<int>(plan.delayed_inputs().size()) * plan.delay_length();
+        bytes += static_cast<int>(sizeof(DelayProgress));
+    }
+    bytes += scalars * scalar_bytes(plan.scalar);
+    const int alignment = plan.moments && !twofold(plan) ? 8 : scalar_bytes(plan.scalar);
+    return (bytes + alignment - 1) / alignment * alignment;
+}
+
+/// Functionals that windows are needed for.
+long evaluated(const plan::RowData<double>& rows) {
+    long out = 0;
+    for (const Functional& f : rows.functionals) out += f.table != no_table ? 1 : 0;
+    return out;
+}
+
+/// Of one evaluation of rows on moments: the shift, then polynomial, ends and reference of each functional (evaluate_moment_rows).
+long moment_rows(const Plan& plan, const plan::RowData<double>& rows) {
+    long out = 0;
+    for (const long d : plan.moments->degrees) out += d * (d + 1) / 2;
+    for (const Functional& f : rows.functionals) out += f.table == no_table ? 0 : plan.moments->tables[f.table].degree + 5;
+    return out;
+}
+
+}  // namespace
+
+Cost cost_of(const Plan& plan) {
+    const plan::RowData<double> rows = plan::make_rows<double>(plan.rows, static_cast<int>(plan.lumped.size()));
+    const plan::RowData<double> perturbation = plan::make_rows<double>(plan.perturbation, static_cast<int>(plan.lumped.size()));
+    const bool square = plan.solve == Solve::square;
+    Cost out{};
+    out.instance_bytes = instance_bytes(plan);
+    out.operations = plan.moments && twofold(plan) ? 10 : 2;
+    const long tables = static_cast<long>(plan.tables.size());
+    if (plan.moments) {
+        const long d = plan.moments->degree;
+        out.rows = moment_rows(plan, rows);
+        long powers = d;
+        for (const long degree : plan.moments->degrees) powers += degree + 1;
+        out.push = (rebuilt(plan) + 2) * powers + out.rows + (plan.perturbation.empty() ? 0 : moment_rows(plan, perturbation));
+        out.table_bytes = tables * ((d + 1) * accumulator_bytes + 4 * scalar_bytes(plan.scalar) + static_cast<int>(sizeof(int)));
+        if (plan.moments->shortest > 0) {   // the dearest sample: in the growing window and in the frames of the sliding one
+            for (const long degree : plan.moments->degrees) out.push += degree + 1;
+            out.push += evaluated(rows) * (d + 2) * (d + 3);
+            out.table_bytes += tables * ((d + 1) * (d + 2) * accumulator_bytes + 1);
+        }
+    } else {
+        out.rows = evaluated(rows) * plan.samples();
+        out.push = square ? 0 : out.rows;
+        out.estimate = (square ? out.rows : 0) + evaluated(perturbation) * plan.samples();
+        out.table_bytes = tables * plan.samples() * scalar_bytes(plan.scalar);
+    }
+    return out;
+}
+
+std::vector<EngineCost> engine_costs(const std::string& path, PlanOptions options) {
+    options.weights = false;
+    std::vector<EngineCost> out;
+    for (int k = 0; k < 2; ++k) {
+        Diagnostics diagnostics;   // whoever generates says the same
+        const auto plan = plan_from_model(path, options, diagnostics);
+        if (!plan) break;
+        const std::string engine = plan->moments ? "moments" : "fir";
+        if (out.empty() || out[0].engine != engine) out.push_back({engine, cost_of(*plan)});
+        options.engine = plan->moments ? "fir" : "moments";
+    }
+    return out;
+}
+
+}  // namespace algest::generator

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What discover says where it cannot do what was asked: no stretch left to test on, a model file that takes no new entries."""
+import json
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from environment import ALGEST
+from hidden_motor import MODEL, TC, recording
+
+ENTRY = re.compile(r"(?m)^(R|J|b) = (\{[^}]*\}).*\n")
+
+
+class WhatIsSaid(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "motor.toml").write_text(MODEL)
+        (self.folder / "run.csv").write_text(recording(TC, 7))
+
+    def discover(self, *words):
+        return subprocess.run([ALGEST, "discover", "motor.toml", "run.csv", "-o", "found", "--json", *words], cwd=self.folder, text=True, capture_output=True)
+
+    def test_a_training_stretch_that_leaves_nothing_to_test_on(self):
+        for end in ("10", "4.999"):
+            done = self.discover("--train", f"0:{end}")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"--train 0:{end} leaves", done.stderr)
+            advice = re.search(r"e\.g\. --train (\S+);", done.stderr)[1]
+            self.assertEqual(advice, "0:3.5")      # 70 percent of 5 s
+
+    def test_parameters_in_an_inline_table_are_a_doubt(self):
+        # Nothing can be written behind the last entry of `parameters = { ... }`: what needs a parameter is not tried, and that is said.
+        entries = ", ".join(f"{name} = {value}" for name, value in ENTRY.findall(MODEL))
+        text = ENTRY.sub("", MODEL).replace("[parameters]\n", "").replace("[sampling]", f"parameters = {{ {entries} }}\n\n[sampling]", 1)
+        (self.folder / "motor.toml").write_text(text)
+        found = json.loads(self.discover().stdout)
+        self.assertEqual(found["verdict"], "unknown")
+        self.assertTrue(any("coulomb_friction" in doubt and "[parameters]" in doubt for doubt in found["doubts"]), found["doubts"])
+
+
+if __name__ == "__main__":
+    unittest.main()

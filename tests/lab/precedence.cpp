@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Who is named where two sets of effects explain alike.
+#include "lab/precedence.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace algest;
+using lab::Contender;
+using As = lab::Precedence::Standing;
+
+namespace {
+
+lab::Effect effect(const std::string& name, lab::Rewrite rewrite = lab::Rewrite::add_term, bool outside = false, std::vector<lab::Rival> rivals = {}) {
+    lab::Effect out;
+    out.name = name;
+    out.rewrite = rewrite;
+    out.outside = outside;
+    out.rivals = std::move(rivals);
+    return out;
+}
+
+/// What is set up of an amendment: its effect, its equation, and how many parameters it brings.
+lab::Variant with(const std::vector<std::tuple<std::string, std::size_t, std::size_t>>& effects) {
+    lab::Variant out;
+    for (const char* const name : {"first", "second"}) {
+        out.whole.equations.emplace_back();
+        out.whole.equations.back().name = name;
+    }
+    for (const auto& [name, equation, parameters] : effects) {
+        lab::Amendment a{};
+        a.effect = name;
+        a.equations = {equation};
+        a.names.resize(parameters);
+        out.amendments.push_back(a);
+    }
+    return out;
+}
+
+const std::vector<lab::Effect> library = {effect("load"), effect("friction", lab::Rewrite::add_term, false, {{"falling", "", false}}), effect("falling", lab::Rewrite::add_term, false, {{"friction", "", true}}),
+                                          effect("wave", lab::Rewrite::add_term, true), effect("bias", lab::Rewrite::transform_signal, false, {{"load", "stand still"}})};
+const lab::Precedence precedence(library);
+
+}  // namespace
+
+TEST_CASE("precedence: what adds to the machine goes before what bends the model, in pairs too") {
+    const lab::Variant load = with({{"load", 0, 1}}), bias = with({{"bias", 0, 1}});
+    CHECK(precedence.before({&load, 1}, {&bias, 100}));
+    CHECK_FALSE(precedence.before({&bias, 100}, {&load, 1}));
+    CHECK(precedence.beside({&load, 1}, {&bias, 1}) == As::as_well);
+    const lab::Variant load_and_wave = with({{"load", 0, 1}, {"wave", 0, 3}}), bias_and_wave = with({{"bias", 0, 1}, {"wave", 0, 3}});
+    CHECK(precedence.beside({&load_and_wave, 1}, {&bias_and_wave, 1}) == As::as_well);
+    CHECK(precedence.doubt(load_and_wave, bias_and_wave).rfind("bias explains", 0) == 0);
+    const lab::Variant wave = with({{"wave", 0, 3}});
+    CHECK(precedence.beside({&load, 1}, {&wave, 1}) == As::nothing);   // no file calls them rivals
+}
+
+TEST_CASE("precedence: then what has less to fit, then what the files put first") {
+    const lab::Variant one = with({{"load", 0, 1}}), two = with({{"friction", 0, 2}});
+    CHECK(precedence.before({&one, 1}, {&two, 1}));
+    CHECK(precedence.beside({&one, 1}, {&two, 1}) == As::nothing);
+    CHECK(precedence.beside({&two, 1}, {&one, 1}) == As::rival);
+    const lab::Variant friction = with({{"friction", 0, 1}}), falling = with({{"falling", 0, 1}});
+    CHECK(precedence.before({&friction, 1}, {&falling, 1}));
+    CHECK_FALSE(precedence.before({&falling, 1}, {&friction, 1}));
+    CHECK(precedence.beside({&friction, 1}, {&falling, 1}) == As::as_well);
+    CHECK(precedence.beside({&one, 1}, {&friction, 1}) == As::rival);
+}
+
+TEST_CASE("precedence: of one effect in two places the rows decide, where one equation lacks it and the other lacks nothing") {
+    const lab::Variant here = with({{"load", 0, 1}}), there = with({{"load", 1, 1}});
+    CHECK(precedence.before({&here, 14}, {&there, 1}));
+    CHECK(precedence.beside({&here, 14}, {&there, 1}) == As::as_well);
+    CHECK(precedence.doubt(here, there).rfind("load in 'second' explains", 0) == 0);
+    CHECK_FALSE(precedence.before({&here, 8}, {&there, 1}));      // 33 to 1 is not enough
+    CHECK(precedence.beside({&here, 8}, {&there, 1}) == As::rival);
+    CHECK(precedence.beside({&here, 40}, {&there, 5}) == As::rival);   // both equations lack it
+    const lab::Variant other = with({{"friction", 1, 1}});
+    CHECK(precedence.beside({&here, 14}, {&other, 1}) == As::rival);   // another effect is another question
+}
