@@ -59,7 +59,7 @@ std::string numbers(const std::vector<int>& of) {
 }
 
 std::string recommendation_text(const model::Model& model, const lab::Trial& t) {
-    std::string out = fmt::format("\nrecommended: window = {:.6g}, engine = \"{}\" ({:.0f} multiply-adds a sample), error {}\n", t.window_s, t.engine.engine, t.engine.multiply_adds, percent(t.error));
+    std::string out = fmt::format("\nrecommended: window = {:.6g}, engine = \"{}\" ({} multiply-adds a sample), error {}\n", t.window_s, t.engine.engine, t.engine.multiply_adds, percent(t.error));
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
         if (!t.rows[e].empty()) out += fmt::format("  {}: kappa = {}, rows = [{}]\n", model.equations[e].name, t.kappa[e], numbers(t.rows[e]));
     }

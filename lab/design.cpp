@@ -148,7 +148,7 @@ private:
         const auto plan = plan_of(model, true, unsaid);
         const auto replayed = plan ? replay(*plan, recording_, {}, unsaid) : std::nullopt;
         if (!replayed) return std::nullopt;
-        Trial out{exact::nearest(*model.window, plan::Scalar::float64), {}, {}, cheaper_engine(*plan), 0, {}, {}};
+        Trial out{exact::nearest(*model.window, plan::Scalar::float64), {}, {}, cheaper_engine(model), 0, {}, {}};
         for (const model::Equation& e : model.equations) out.kappa.push_back(e.kappa);
         out.rows = rows_of(*plan);
         const std::size_t from = replayed->samples() / 2;
@@ -258,7 +258,9 @@ private:
         return other != nullptr && !good_enough && other->error < worth_a_change * plain->error ? *other : *plain;
     }
 
-    std::vector<std::string> lacking(const model::Model& model) const {
+    std::vector<std::string> lacking(model::Model model) const {
+        model.growing = false;   // rows at hand are those of whole windows, by weights
+        model.estimator.engine = "fir";
         Diagnostics unsaid;
         const auto plan = plan_of(model, true, unsaid);
         return plan ? missing_excitation(*plan, recording_) : std::vector<std::string>();

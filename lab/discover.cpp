@@ -193,6 +193,7 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
             bench.measure_by(Yardstick::free_run);
         }
     }
+    if (!names_something(out.verdict) && guesses_noise(nominal->model, nominal->bench)) out.verdict = judge(bench, *nominal, selection, Floor::a_guess);
 
     if (progress) progress("confirm", 0.9);
     bench.refine(*nominal);

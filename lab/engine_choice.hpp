@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which window engine costs less: multiply-adds a sample, counted.
+// Which window engine costs a model less: multiply-adds a sample, counted.
 #pragma once
 #include <string>
 
-#include "generator/plan.hpp"
+#include "generator/model.hpp"
 
 namespace algest::lab {
 
 struct EngineChoice {
-    std::string engine;    ///< "fir" or "moments"
-    double multiply_adds;  ///< a sample with an estimate
+    std::string engine;    ///< "fir" or "moments"; empty: the model has no estimator
+    long multiply_adds;    ///< a sample with an estimate
 };
 
-/// Dot products of the window against accumulators of moments, four of them rebuilt beside the one that serves (design.md, section 5).
-EngineChoice cheaper_engine(const plan::Plan& plan);
+/// By generator/cost.hpp; of the engines that the model can have. Cost: two plans without weights.
+EngineChoice cheaper_engine(const model::Model& model);
 
 }  // namespace algest::lab

@@ -117,6 +117,7 @@ public:
 private:
     void find_idle_kinematics(const model::Model& model);
     void drop_idle_kinematics(model::Model& model) const;
+    void fit_from_elsewhere(Variant& v, FitStart from) const;
     Score free_run_score(const Variant& v) const;
     Score rows_score(const Variant& v) const;
 
