@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -56,17 +57,36 @@ inline Number from(const exact::Rational& value) {
     return part(cln::numerator(value)) / part(cln::denominator(value));
 }
 
-/// The same numbers on every machine and run (splitmix64).
+/// Half of the numbers have a square root.
+inline bool has_root(Number n) { return !n.is_zero() && n.power((prime - 1) / 2) == Number(1); }
+/// Of a number that has one: that of the two which has a root itself.
+inline Number root_of(Number n) { return n.power((prime + 1) / 4); }   // the prime is 3 modulo 4
+
+constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;   ///< splitmix64's step: 2^64 over the golden ratio
+/// splitmix64's mixing.
+constexpr std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31U);
+}
+/// Not zero.
+inline Number number_of(std::uint64_t bits) { return Number(static_cast<std::int64_t>(bits % (prime - 1)) + 1); }
+
+/// A number that follows from what it is for, whatever was drawn before; not zero. The same on every machine and run.
+inline Number drawn(std::initializer_list<std::uint64_t> meaning) {
+    std::uint64_t state = 0;
+    for (const std::uint64_t part : meaning) state = mixed(state + golden + part);
+    return number_of(mixed(state + golden));
+}
+
+/// A sequence for who asks in an order that is always the same. The same numbers on every machine and run.
 class Draw {
 public:
     explicit Draw(std::uint64_t seed) : state_(seed) {}
     /// Not zero.
     Number next() {
-        state_ += 0x9e3779b97f4a7c15U;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-        return Number(static_cast<std::int64_t>((z ^ (z >> 31U)) % (prime - 1)) + 1);
+        state_ += golden;
+        return number_of(mixed(state_));
     }
 
 private:

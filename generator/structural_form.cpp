@@ -12,6 +12,9 @@ namespace {
 using formula::Formula;
 using GiNaC::ex;
 
+/// Of substitutions in one expression: each lowers an order or follows one equation further, and no model has that many of both.
+constexpr int most_rounds = 50;
+
 bool not_below(Jet j, Jet leader) { return j.signal == leader.signal && j.order >= leader.order; }
 
 /// Signals in the order of the text.
@@ -39,6 +42,7 @@ public:
             if (!solve(model_.equations[e], zeros[e])) return std::nullopt;
         }
         for (Explicit& e : out_.equations) e.right = over_one_bar(reduced(e.right, out_.equations, symbols_));
+        for (std::size_t k = 0; k < implicit_.size(); ++k) find_ties(k);
         return out_;
     }
 
@@ -95,7 +99,29 @@ private:
         if (all.empty()) return fail(e, "equation '" + e.name + "' says nothing about a signal once the others hold", "remove it, or mend what contradicts it");
         if (!in_sight) return fail(e, "equation '" + e.name + "' cannot be solved for a derivative that it is linear in, and it holds a hidden signal", "write der(x) = ... of one signal in each equation");
         out_.implicit.push_back(zero);
+        implicit_.push_back(&e);
         return true;
+    }
+
+    bool holds(const ex& e, int signal) const {
+        const std::vector<Jet> all = symbols_.jets(e);
+        return std::any_of(all.begin(), all.end(), [&](Jet j) { return j.signal == signal; });
+    }
+
+    /// Signals that an equation which is solved for nothing has in common with others.
+    void find_ties(std::size_t k) {
+        for (const Jet& j : symbols_.jets(out_.implicit[k])) {
+            bool moved = false;
+            bool given = false;
+            for (const Explicit& e : out_.equations) {
+                if (e.leader.signal == j.signal || holds(e.right, j.signal)) (e.leader.order > 0 ? moved : given) = true;
+            }
+            for (std::size_t other = 0; other < out_.implicit.size(); ++other) moved = moved || (other != k && holds(out_.implicit[other], j.signal));
+            if (!moved && !given) continue;
+            const std::size_t plain = model_.signals.size();
+            const auto s = static_cast<std::size_t>(j.signal);
+            out_.ties.push_back({implicit_[k], s < plain ? model_.signals[s].name : symbols_.delays()[s - plain].text, !moved});
+        }
     }
 
     const model::Model& model_;
@@ -103,13 +129,14 @@ private:
     Symbols& symbols_;
     Diagnostics& diagnostics_;
     Triangle out_;
+    std::vector<const model::Equation*> implicit_;   // those of out_.implicit
 };
 
 }  // namespace
 
 ex reduced(const ex& e, const std::vector<Explicit>& equations, Symbols& symbols) {
     ex out = e;
-    for (int round = 0; round < 50; ++round) {
+    for (int round = 0; round < most_rounds; ++round) {
         GiNaC::exmap by;
         for (const Jet& j : symbols.jets(out)) {
             for (const Explicit& known : equations) {

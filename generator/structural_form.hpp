@@ -87,10 +87,18 @@ struct Explicit {
     GiNaC::ex right;
 };
 
+/// An implicit equation has a signal in common with another equation: it binds what the other takes for free.
+struct Tie {
+    const model::Equation* equation;   ///< the implicit one
+    std::string signal;
+    bool algebraic;                    ///< the others give signals, not derivatives, and are solved
+};
+
 /// The equations of a model.
 struct Triangle {
     std::vector<Explicit> equations;
     std::vector<GiNaC::ex> implicit;   ///< = 0: linear in no signal that they could be solved for; by the model's signals alone, all measured
+    std::vector<Tie> ties;
 };
 
 /// Brings the equations into that form, perturbations of kappa >= 1 included. Complains (bad input) about divisions by zero, equations that

@@ -35,9 +35,7 @@ public:
             list_signals(triangle->equations);
             unknowns_ = symbols_.parameters();
             unknowns_.insert(unknowns_.end(), symbols_.nuisances().begin(), symbols_.nuisances().end());
-            modular::Draw draw(1);
-            for (std::size_t k = 0; k < unknowns_.size(); ++k) point_.push_back(draw.next());
-            judge_locally(*triangle);
+            if (!judge_locally(*triangle) || !free_of_ties(*triangle)) return std::nullopt;
             find_input_output(*triangle);
         } catch (const TooLong&) {
             diagnostics_.error(model_.path, {}, "multiplied out, the equations have more than " + std::to_string(static_cast<int>(most_terms)) + " terms", "write them with fewer sums under powers, or hide fewer signals");
@@ -112,14 +110,16 @@ private:
         return out;
     }
 
-    void judge_locally(const Triangle& triangle) {
-        const Vector own(point_.begin(), point_.begin() + static_cast<std::ptrdiff_t>(parameters()));
-        sensitivity_ = sensitivity(triangle.equations, hidden_, symbols_, own);
+    bool judge_locally(const Triangle& triangle) {
+        auto found = sensitivity(triangle.equations, hidden_, symbols_);
+        if (!found) return fail("the verdict is open: no point was found at which every sqrt() and every power k/2 has a value", "write a sqrt() of parameters, or of time, as a parameter of its own");
+        sensitivity_ = std::move(*found);
         for (const ex& zero : triangle.implicit) add_rows_of(coefficients(zero, symbols_));
         for (std::size_t k = 0; k < parameters(); ++k) {
             const bool determined = sensitivity_.rows.contains(unit(k));
             out_.parameters.push_back({model_.parameters[k].name, determined ? Verdict::locally : Verdict::no, std::nullopt});
         }
+        return true;
     }
 
     /// An equation that is solved for nothing: the ratios of its coefficients are what it determines.
@@ -130,12 +130,28 @@ private:
             const Polynomial p = polynomial(one);
             Vector row(sensitivity_.columns);
             for (std::size_t k = 0; k < unknowns_.size(); ++k) row[k] = at_point(derivative(p, k)) * at_point(reference) - at_point(p) * at_point(derivative(reference, k));
+            of_implicit_.add(row);
             if (!sensitivity_.rows.add(row)) continue;
             sensitivity_.unknown_alone.emplace_back(row.begin() + static_cast<std::ptrdiff_t>(parameters()), row.end());
         }
     }
 
-    Number at_point(const Polynomial& p) const { return modular::value_at(modular::from(p), point_); }
+    /// What other equations say of signals that an implicit one binds was judged as if these were free. Nothing hangs on that where the implicit
+    /// one alone, whose coefficients show whatever the others give, determines every parameter.
+    bool free_of_ties(const Triangle& triangle) {
+        for (const Tie& tie : triangle.ties) {
+            bool alone = tie.algebraic;
+            for (std::size_t k = 0; k < parameters(); ++k) alone = alone && of_implicit_.contains(unit(k));
+            if (alone) continue;
+            const model::Equation& e = *tie.equation;
+            diagnostics_.error(e.file, e.at, "the verdict is open: equation '" + e.name + "' is linear in no signal that it could be solved for, and " + tie.signal + " stands in another equation too",
+                               "solve it for one of its signals, y = ..., or leave it out and put what it says into the others");
+            return false;
+        }
+        return true;
+    }
+
+    Number at_point(const Polynomial& p) const { return modular::value_at(modular::from(p), sensitivity_.point); }
 
     /// The coefficients of the input-output equations, where these can be had.
     void find_input_output(const Triangle& triangle) {
@@ -177,7 +193,7 @@ private:
         modular::RowSpace others;
         for (const Vector& row : sensitivity_.unknown_alone) others.add(row);
         const std::size_t count = sensitivity_.rows.rank() - others.rank() - (parameters() - open.size());
-        const Vector own(point_.begin(), point_.begin() + static_cast<std::ptrdiff_t>(parameters()));
+        const Vector own(sensitivity_.point.begin(), sensitivity_.point.begin() + static_cast<std::ptrdiff_t>(parameters()));
         combinations_ = combinations(open, ratios(open), count, sensitivity_.rows, sensitivity_.columns, own);
         std::vector<std::string> names;
         for (const model::Parameter& p : model_.parameters) names.push_back(p.name);
@@ -315,8 +331,8 @@ private:
     Symbols symbols_;
     std::vector<bool> hidden_;
     std::vector<GiNaC::symbol> unknowns_;                // parameters, then coefficients of perturbations
-    Vector point_;                                       // of unknowns
     Sensitivity sensitivity_;
+    modular::RowSpace of_implicit_;                      // what implicit equations alone determine
     bool all_found_ = false;                             // every input-output equation is in equations_
     std::vector<std::vector<Polynomial>> equations_;     // coefficients, in the unknowns; the simplest first
     std::vector<Quotient> combinations_;

@@ -145,15 +145,19 @@ ex Symbols::perturbation(int kappa) {
 
 ex Symbols::derivative(const ex& e) {
     GiNaC::exset seen;
-    each_symbol(e, [&](const ex& s) { seen.insert(s); });
-    ex out = 0;
+    std::vector<std::size_t> functions;   // sorted: what is first met is numbered first, and a set runs in another order each time
+    each_symbol(e, [&](const ex& s) {
+        if (!seen.insert(s).second) return;
+        if (const auto a = atom_of(s)) functions.push_back(*a);
+    });
+    std::sort(functions.begin(), functions.end());
+    ex out = e.diff(time_);
     for (const ex& s : seen) {
-        const auto partial = [&] { return e.diff(GiNaC::ex_to<symbol>(s)); };
-        if (const auto j = jet_of(s)) out += partial() * jet({j->signal, j->order + 1});
-        if (s.is_equal(time_)) out += partial();
-        const auto a = atom_of(s);
-        if (!a) continue;
-        const Atom atom = atoms_[*a];
+        if (const auto j = jet_of(s)) out += e.diff(GiNaC::ex_to<symbol>(s)) * jet({j->signal, j->order + 1});
+    }
+    for (const std::size_t a : functions) {
+        const Atom atom = atoms_[a];
+        const auto partial = [&] { return e.diff(atom.symbol); };
         const ex inner = derivative(atom.argument);
         switch (atom.kind) {
             case Atom::Kind::sine: out += partial() * function(Atom::Kind::cosine, atom.argument) * inner; break;
@@ -169,14 +173,11 @@ ex Symbols::derivative(const ex& e) {
 
 ex Symbols::substituted(const ex& e, const exmap& by) {
     exmap all = by;
-    GiNaC::exset seen;
-    each_symbol(e, [&](const ex& s) { seen.insert(s); });
-    for (const ex& s : seen) {
-        const auto a = atom_of(s);
-        if (!a) continue;
-        const Atom atom = atoms_[*a];
+    for (const std::size_t a : atoms_in(e)) {   // in the order of their numbers, so that new ones are numbered alike in each run
+        const Atom atom = atoms_[a];
+        if (!e.has(atom.symbol)) continue;
         const ex argument = substituted(atom.argument, by);
-        if (!argument.is_equal(atom.argument)) all[s] = function(atom.kind, argument);
+        if (!argument.is_equal(atom.argument)) all[atom.symbol] = function(atom.kind, argument);
     }
     return e.subs(all, GiNaC::subs_options::no_pattern);
 }

@@ -8,6 +8,7 @@
 
 #include "generator/dual_series.hpp"
 #include "generator/ginac_exact.hpp"
+#include "generator/structural_point.hpp"
 
 namespace algest::structure {
 
@@ -18,15 +19,15 @@ using modular::Dual;
 using modular::Number;
 using modular::Series;
 
-struct NoRoot {};   // the point has no square root: another one
+/// All patterns of signs up to here, 2^3 stretches. Of more signs as many patterns at random and one more for each sign: that many tell apart
+/// what is linear in the signs.
+constexpr std::size_t most_signs_tried_out = 3;
 
-/// One stretch: its own initial values, inputs and signs.
+/// The series of one stretch, from its point on.
 class Stretch {
 public:
-    Stretch(const std::vector<Explicit>& equations, Symbols& symbols, const modular::Vector& point, std::size_t length, std::size_t columns, std::size_t first_column,
-            unsigned signs, std::uint64_t seed)
-        : equations_(equations), symbols_(symbols), point_(point), length_(length), columns_(columns), next_column_(first_column), signs_(signs), draw_(seed) {
-        number_signs();
+    Stretch(const std::vector<Explicit>& equations, Symbols& symbols, const Point& point, std::size_t length, std::size_t columns, std::size_t first_column)
+        : equations_(equations), symbols_(symbols), point_(point), length_(length), columns_(columns), next_column_(first_column) {
         for (const Explicit& e : equations_) {
             for (int order = 0; order < e.leader.order; ++order) start_state({e.leader.signal, order});
         }
@@ -64,16 +65,9 @@ private:
     };
 
     void start_state(Jet j) {
-        Dual value(draw_.next(), columns_);
+        Dual value(point_.jet(j), columns_);
         value.gradient[next_column_++] = 1;
         states_[j] = {value};
-    }
-
-    /// Different signs in each stretch: bit k of `signs` is that of the k-th sgn().
-    void number_signs() {
-        for (std::size_t a = 0; a < symbols_.atoms().size(); ++a) {
-            if (symbols_.atoms()[a].kind == Atom::Kind::sign) sign_number_.emplace(a, static_cast<unsigned>(sign_number_.size()) % 30U);
-        }
     }
 
     std::size_t add(Operation operation, std::size_t a = 0, std::size_t b = 0, Jet jet = {0, 0}) {
@@ -128,13 +122,13 @@ private:
         if (const auto a = symbols_.atom_of(s)) return compile_atom(*a);
         if (s.is_equal(symbols_.time())) {
             Series t(length_, Dual(0, columns_));
-            t[0] = Dual(draw_.next(), columns_);
+            t[0] = Dual(point_.time(), columns_);
             if (length_ > 1) t[1] = Dual(1, columns_);
             return known(std::move(t));
         }
         for (std::size_t k = 0; k < symbols_.parameters().size(); ++k) {
             if (!s.is_equal(symbols_.parameters()[k])) continue;
-            Dual value(point_[k], columns_);
+            Dual value(point_.parameter(k), columns_);
             value.gradient[k] = 1;
             return constant(value);
         }
@@ -144,42 +138,34 @@ private:
     Dual nuisance(const ex& s) {
         for (std::size_t k = 0; k < symbols_.nuisances().size(); ++k) {
             if (!s.is_equal(symbols_.nuisances()[k])) continue;
-            Dual value(draw_.next(), columns_);
-            value.gradient[point_.size() + k] = 1;
+            Dual value(point_.nuisance(k), columns_);
+            value.gradient[symbols_.parameters().size() + k] = 1;
             return value;
         }
         throw std::logic_error("a symbol of no kind");
     }
 
     /// Of a signal that no equation moves: any function of time. Delayed by a parameter, it moves with that.
-    Series input(Jet j) {
-        modular::Vector& whole = inputs_[j.signal];
-        while (whole.size() < length_ + static_cast<std::size_t>(j.order) + 1) whole.push_back(draw_.next());
+    Series input(Jet j) const {
         const int delay = symbols_.delay_parameter(j.signal);
         Series out;
-        for (std::size_t k = 0; k < length_; ++k) {
-            Dual value(of_derivative(whole, j.order, k), columns_);
-            if (delay >= 0) value.gradient[static_cast<std::size_t>(delay)] = Number(0) - of_derivative(whole, j.order + 1, k);
+        Number factorial = 1;
+        for (int k = 0; k < static_cast<int>(length_); ++k) {
+            if (k > 0) factorial = factorial * Number(k);
+            Dual value(point_.jet({j.signal, j.order + k}) / factorial, columns_);
+            if (delay >= 0) value.gradient[static_cast<std::size_t>(delay)] = Number(0) - point_.jet({j.signal, j.order + k + 1}) / factorial;
             out.push_back(value);
         }
         return out;
     }
 
-    /// Coefficient k of the derivative of a series that is drawn as needed.
-    Number of_derivative(modular::Vector& whole, int order, std::size_t k) {
-        while (whole.size() <= k + static_cast<std::size_t>(order)) whole.push_back(draw_.next());
-        Number factor = 1;
-        for (std::size_t i = k + 1; i <= k + static_cast<std::size_t>(order); ++i) factor = factor * Number(static_cast<std::int64_t>(i));
-        return whole[k + static_cast<std::size_t>(order)] * factor;
-    }
-
     std::size_t compile_atom(std::size_t a) {
         const Atom atom = symbols_.atoms()[a];
         switch (atom.kind) {
-            case Atom::Kind::sign: return constant(Dual(((signs_ >> sign_number_.at(a)) & 1U) != 0 ? 1 : -1, columns_));
+            case Atom::Kind::sign: return constant(Dual(point_.sign(a), columns_));
             case Atom::Kind::exponential: return add(Operation::exponential, node(atom.argument));
             case Atom::Kind::logarithm: return add(Operation::logarithm, node(atom.argument));
-            case Atom::Kind::root: return add(Operation::root, node(atom.argument));
+            case Atom::Kind::root: return compile_root(atom.argument);
             case Atom::Kind::sine:
             case Atom::Kind::cosine: break;
         }
@@ -196,6 +182,11 @@ private:
         return atom.kind == Atom::Kind::sine ? sine : sine + 1;
     }
 
+    std::size_t compile_root(const ex& argument) {
+        if (GiNaC::is_a<GiNaC::numeric>(argument)) return constant(Dual(point_.root(argument, modular::from(from_ginac(argument))), columns_));
+        return add(Operation::root, node(argument));
+    }
+
     Dual coefficient(Node& n, std::size_t k) {
         const auto a = [&]() -> const Series& { return nodes_[n.a].values; };
         switch (n.operation) {
@@ -204,8 +195,8 @@ private:
             case Operation::add: return a()[k] + nodes_[n.b].values[k];
             case Operation::multiply: return modular::product(a(), nodes_[n.b].values, k);
             case Operation::invert: return modular::reciprocal(a(), n.values, k);
-            case Operation::exponential: return k == 0 ? modular::start(draw_.next(), a()[0], [](Number f) { return f; }) : modular::integrated(a(), n.values, k);
-            case Operation::logarithm: return k == 0 ? modular::start(draw_.next(), a()[0], [&](Number) { return a()[0].value.inverse(); }) : modular::logarithm(a(), n.values, k);
+            case Operation::exponential: return k == 0 ? modular::start(point_.function(Atom::Kind::exponential, a()[0].value), a()[0], [](Number f) { return f; }) : modular::integrated(a(), n.values, k);
+            case Operation::logarithm: return k == 0 ? modular::start(point_.function(Atom::Kind::logarithm, a()[0].value), a()[0], [&](Number) { return a()[0].value.inverse(); }) : modular::logarithm(a(), n.values, k);
             case Operation::root: return root(n, k);
             case Operation::sine: return circle(n, nodes_[static_cast<std::size_t>(&n - nodes_.data()) + 1], k, false);
             case Operation::cosine: return circle(n, nodes_[static_cast<std::size_t>(&n - nodes_.data()) - 1], k, true);
@@ -213,12 +204,10 @@ private:
         throw std::logic_error("an operation of no kind");
     }
 
-    Dual root(const Node& n, std::size_t k) {
+    Dual root(const Node& n, std::size_t k) const {
         const Series& a = nodes_[n.a].values;
         if (k > 0) return modular::root(a, n.values, k);
-        const Number value = a[0].value.power((modular::prime + 1) / 4);   // the prime is 3 modulo 4
-        if (!(value * value == a[0].value) || value.is_zero()) throw NoRoot{};
-        return modular::start(value, a[0], [](Number f) { return (f + f).inverse(); });
+        return modular::start(modular::root_of(a[0].value), a[0], [](Number f) { return (f + f).inverse(); });
     }
 
     /// Sine (the node before) and cosine of one argument: on the circle, by s' = c a', c' = -s a'.
@@ -228,57 +217,52 @@ private:
             const Dual slope = modular::integrated(a, other.values, k);
             return is_cosine ? Dual(0, columns_) - slope : slope;
         }
-        if (!is_cosine) circle_[n.a] = draw_.next();
-        const Number half = circle_.at(n.a);   // tan of half the angle
-        const Number below = (Number(1) + half * half).inverse();
-        const Number sine = (half + half) * below;
-        const Number cosine = (Number(1) - half * half) * below;
+        const Number half = point_.function(Atom::Kind::sine, a[0].value);
+        const Number sine = sine_of_half(half);
+        const Number cosine = cosine_of_half(half);
         const Number slope = is_cosine ? Number(0) - sine : cosine;
         return modular::start(is_cosine ? cosine : sine, a[0], [slope](Number) { return slope; });
     }
 
     const std::vector<Explicit>& equations_;
     Symbols& symbols_;
-    const modular::Vector& point_;
+    const Point& point_;
     std::size_t length_;
     std::size_t columns_;
     std::size_t next_column_;
-    unsigned signs_;
-    modular::Draw draw_;
-    std::map<std::size_t, unsigned> sign_number_;
     std::map<Jet, Series> states_;
-    std::map<int, modular::Vector> inputs_;
     std::vector<Node> nodes_;
     std::map<ex, std::size_t, GiNaC::ex_is_less> known_;
     std::map<std::size_t, std::size_t> circles_;
-    std::map<std::size_t, Number> circle_;
     std::vector<std::size_t> rights_;
 };
 
 }  // namespace
 
-Sensitivity sensitivity(const std::vector<Explicit>& equations, const std::vector<bool>& hidden, Symbols& symbols, const modular::Vector& point) {
+std::optional<Sensitivity> sensitivity(const std::vector<Explicit>& equations, const std::vector<bool>& hidden, Symbols& symbols) {
+    const std::vector<std::size_t> roots = roots_in(equations, symbols);
+    Point point(symbols);
+    if (!point.settle_parameters(roots)) return std::nullopt;
     std::size_t states = 0;
     for (const Explicit& e : equations) states += static_cast<std::size_t>(e.leader.order);
     const auto signs = static_cast<std::size_t>(std::count_if(symbols.atoms().begin(), symbols.atoms().end(), [](const Atom& a) { return a.kind == Atom::Kind::sign; }));
-    const std::size_t stretches = signs < 4 ? std::size_t{1} << signs : 8 + signs;
-    const std::size_t own = point.size() + symbols.nuisances().size();
+    const bool all_patterns = signs <= most_signs_tried_out;
+    const std::size_t stretches = all_patterns ? std::size_t{1} << signs : (std::size_t{1} << most_signs_tried_out) + signs;
+    const std::size_t parameters = symbols.parameters().size();
+    const std::size_t own = parameters + symbols.nuisances().size();
     Sensitivity out;
+    for (std::size_t k = 0; k < parameters; ++k) out.point.push_back(point.parameter(k));
+    for (std::size_t k = 0; k < symbols.nuisances().size(); ++k) out.point.push_back(point.nuisance(k));
     out.columns = own + stretches * states;
-    modular::Draw pattern(7);
     for (std::size_t s = 0; s < stretches; ++s) {
-        const unsigned these = signs < 4 ? static_cast<unsigned>(s) : pattern.next().value();
-        std::vector<Series> measured;
-        for (std::uint64_t seed = 1; measured.empty() && seed < 200; ++seed) {
-            try {
-                measured = Stretch(equations, symbols, point, own + states + 1, out.columns, own + s * states, these, seed * 1000 + s).run();
-            } catch (const NoRoot&) {}
-        }
+        const unsigned pattern = all_patterns ? static_cast<unsigned>(s) : modular::drawn({s}).value();
+        if (!point.settle(s, pattern, roots)) return std::nullopt;
+        const std::vector<Series> measured = Stretch(equations, symbols, point, own + states + 1, out.columns, own + s * states).run();
         for (std::size_t e = 0; e < measured.size(); ++e) {
             if (hidden[static_cast<std::size_t>(equations[e].leader.signal)]) continue;
             for (const Dual& coefficient : measured[e]) {
                 if (!out.rows.add(coefficient.gradient)) continue;
-                out.unknown_alone.emplace_back(coefficient.gradient.begin() + static_cast<std::ptrdiff_t>(point.size()), coefficient.gradient.end());
+                out.unknown_alone.emplace_back(coefficient.gradient.begin() + static_cast<std::ptrdiff_t>(parameters), coefficient.gradient.end());
             }
         }
     }

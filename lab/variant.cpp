@@ -146,7 +146,7 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     Diagnostics quiet;
     Diagnostics& said = amendments.empty() ? diagnostics : quiet;
     auto model = model::read_from_text(text, path_, false, said);
-    if (!model && !amendments.empty()) unwritten_.insert(amendments.back().effect);
+    if (!model && !amendments.empty()) unwritten_.emplace(amendments.back().effect, quiet.has_errors() ? quiet.sorted().front().what : "");
     if (!model) return std::nullopt;
     if (amendments.empty()) find_idle_kinematics(*model);
     const model::Model whole = *model;
