@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from command_line import L, R, RL_CIRCUIT, CommandLine, coil_rows, csv
-from environment import ALGEST
+from environment import ALGEST, SOURCE
 
 
 class Parsing(CommandLine):
