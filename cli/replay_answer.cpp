@@ -92,9 +92,11 @@ ordered_json replay_json(const std::string& model, const std::string& recording,
             {"status", std::move(status)},
             {"condition",
              {{"median", number_or_null(summary.condition_median)}, {"last", number_or_null(summary.condition_last)}}}};
-    if (plan.steady) out["operating_points"] = replay.points.count();
-    out["missing"] = ordered_json::array();
-    if (const auto missing = what_is_missing(plan, replay, summary)) out["missing"].push_back(*missing);
+    if (plan.steady) {
+        out["operating_points"] = replay.points.count();
+        out["missing"] = ordered_json::array();
+        if (const auto missing = what_is_missing(plan, replay, summary)) out["missing"].push_back(*missing);
+    }
     if (plan.elimination) out["candidates"] = candidates_json(replay.candidates);
     if (plan.discrete) add_system(plan, summary, out);
     return out;

@@ -155,14 +155,14 @@ class Generate(CommandLine):
         self.assertIn("engine fir", (self.folder / "generated/rl/rl.hpp").read_text())
 
     def test_models_without_polynomial_kernels_fall_back_to_fir_too(self):
-        asking = RL_CIRCUIT + '[estimator]\nfunctional = "derivative"\nengine = "moments"\n'
-        self.write("asking.toml", asking)
+        averages = (SOURCE / "models/pmsm_sensorless.toml").read_text()
+        self.write("asking.toml", averages.replace("[estimator]\n", '[estimator]\nengine = "moments"\n'))
         for arguments in (["asking.toml"], ["rl.toml", SOURCE / "models/servo.toml", SOURCE / "models/pmsm_sensorless.toml", "--engine", "moments"]):
             _, err = self.algest("generate", *arguments)
             self.assertIn("engine fir instead of moments: only the annihilator has polynomial kernels on windows", err)
         self.assertIn("engine fir", (self.folder / "generated/servo/servo.hpp").read_text())
         self.assertIn("engine moments", (self.folder / "generated/rl/rl.hpp").read_text())
-        self.write("growing.toml", asking.replace("window = 0.05", "window = 0.05\ngrowing = true"))
+        self.write("growing.toml", averages.replace("[sampling]\n", "[sampling]\ngrowing = true\n"))
         _, err = self.algest("generate", "growing.toml", exit_code=2)
         self.assertIn("growing windows are for the annihilator", err)
 
