@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/cost.hpp"
 
+#include <utility>
+
 #include "algest/boxcar.hpp"
 #include "algest/delay_line.hpp"
 #include "algest/growing_moments.hpp"
 #include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
 #include "generator/cpp_text.hpp"
+#include "generator/planner.hpp"
 
 namespace algest::generator {
 
@@ -106,11 +109,17 @@ Cost cost_of(const Plan& plan) {
 }
 
 std::vector<EngineCost> engine_costs(const std::string& path, PlanOptions options) {
+    Diagnostics diagnostics;   // whoever generates says the same
+    const auto model = model::read(path, false, diagnostics);
+    return model && !model->filter ? engine_costs(*model, std::move(options)) : std::vector<EngineCost>();
+}
+
+std::vector<EngineCost> engine_costs(const model::Model& model, PlanOptions options) {
     options.weights = false;
     std::vector<EngineCost> out;
     for (int k = 0; k < 2; ++k) {
         Diagnostics diagnostics;   // whoever generates says the same
-        const auto plan = plan_from_model(path, options, diagnostics);
+        const auto plan = plan_of(model, options, diagnostics);
         if (!plan) break;
         const std::string engine = plan->moments ? "moments" : "fir";
         if (out.empty() || out[0].engine != engine) out.push_back({engine, cost_of(*plan)});
