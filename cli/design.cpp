@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 ordered_json trial_json(const model::Model& model, const lab::Trial& t) {
     ordered_json parameters = ordered_json::array();
     for (std::size_t p = 0; p < t.mean.size(); ++p) parameters.push_back({{"name", model.parameters[p].name}, {"mean", t.mean[p]}, {"scatter", t.scatter[p]}});
-    return {{"window_s", t.window_s}, {"kappa", t.kappa}, {"rows", t.rows}, {"engine", t.engine.engine}, {"multiply_adds", t.engine.cost.multiply_adds()}, {"ok", t.ok},
+    return {{"window_s", t.window_s}, {"kappa", t.kappa}, {"rows", t.rows}, {"engine", t.engine.engine}, {"multiply_adds", t.engine.multiply_adds}, {"ok", t.ok},
             {"noise", t.noise}, {"perturbation", t.perturbation}, {"error", t.error}, {"parameters", std::move(parameters)}};
 }
 
@@ -59,7 +59,7 @@ std::string numbers(const std::vector<int>& of) {
 }
 
 std::string recommendation_text(const model::Model& model, const lab::Trial& t) {
-    std::string out = fmt::format("\nrecommended: window = {:.6g}, engine = \"{}\" ({} multiply-adds a sample), error {}\n", t.window_s, t.engine.engine, t.engine.cost.multiply_adds(), percent(t.error));
+    std::string out = fmt::format("\nrecommended: window = {:.6g}, engine = \"{}\" ({} multiply-adds a sample), error {}\n", t.window_s, t.engine.engine, t.engine.multiply_adds, percent(t.error));
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
         if (!t.rows[e].empty()) out += fmt::format("  {}: kappa = {}, rows = [{}]\n", model.equations[e].name, t.kappa[e], numbers(t.rows[e]));
     }

@@ -31,7 +31,7 @@ struct Made {
 ordered_json json(const std::vector<generator::EngineCost>& costs) {
     ordered_json out = ordered_json::array();
     for (const auto& [engine, cost] : costs) {
-        out.push_back({{"engine", engine}, {"operations", cost.floating_point()}, {"memory", cost.instance_bytes}, {"tables", cost.table_bytes}});
+        out.push_back({{"engine", engine}, {"operations", cost.operations * (cost.push + cost.estimate)}, {"memory", cost.instance_bytes}, {"tables", cost.table_bytes}});
     }
     return out;
 }

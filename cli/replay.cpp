@@ -87,8 +87,7 @@ int replay(const ReplayOptions& options) {
     print_diagnostics(diagnostics);
     for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
 
-    const bool answered = summary.count[static_cast<std::size_t>(Status::ok)] > 0;
-    if (const auto missing = lab::what_is_missing(*plan, replay->points, answered)) note(*missing);
+    if (const auto missing = what_is_missing(*plan, *replay, summary)) note(*missing);
     if (options.json) print_json(replay_json(options.model, options.recordings[0], *plan, *replay, summary));
     else print(replay_text(*plan, *replay, summary));
     return exit_done;

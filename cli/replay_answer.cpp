@@ -26,7 +26,7 @@ ordered_json candidates_json(const std::vector<lab::EliminationCandidate>& candi
     for (const lab::EliminationCandidate& c : candidates) {
         ordered_json values = ordered_json::object();
         for (const auto& value : c.values) values[value.name] = number_or_null(value.value);
-        out.push_back({{"equations", c.equations}, {"values", std::move(values)}, {"error", number_or_null(c.error)}, {"standing", lab::in_words(c.standing)}});
+        out.push_back({{"equations", c.equations}, {"values", std::move(values)}, {"error", number_or_null(c.error)}, {"standing", lab::name(c.standing)}});
     }
     return out;
 }
@@ -67,6 +67,10 @@ void add_system(const plan::Plan& plan, const lab::ReplaySummary& summary, order
 
 }  // namespace
 
+std::optional<std::string> what_is_missing(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary) {
+    return lab::what_is_missing(plan, replay.points, summary.count[static_cast<std::size_t>(Status::ok)] > 0);
+}
+
 ordered_json replay_json(const std::string& model, const std::string& recording, const plan::Plan& plan, const lab::Replay& replay,
                          const lab::ReplaySummary& summary) {
     ordered_json parameters = ordered_json::array();
@@ -89,6 +93,8 @@ ordered_json replay_json(const std::string& model, const std::string& recording,
             {"condition",
              {{"median", number_or_null(summary.condition_median)}, {"last", number_or_null(summary.condition_last)}}}};
     if (plan.steady) out["operating_points"] = replay.points.count();
+    out["missing"] = ordered_json::array();
+    if (const auto missing = what_is_missing(plan, replay, summary)) out["missing"].push_back(*missing);
     if (plan.elimination) out["candidates"] = candidates_json(replay.candidates);
     if (plan.discrete) add_system(plan, summary, out);
     return out;

@@ -3,6 +3,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 
 #include "generator/plan.hpp"
@@ -10,9 +11,13 @@
 
 namespace algest::cli {
 
-/// {"model", "recording", "samples", "period_s", "parameters": [{"name", "unit", "last", "median", "sd", "bias"}], "status", "condition", ...}
+/// {"model", "recording", "samples", "period_s", "parameters": [{"name", "unit", "last", "median", "sd", "bias"}], "status", "condition",
+/// "missing": [text], ...}
 nlohmann::ordered_json replay_json(const std::string& model, const std::string& recording, const plan::Plan& plan, const lab::Replay& replay,
                                    const lab::ReplaySummary& summary);
+
+/// What the data lack where operating points gave no answer, in words; empty: nothing.
+std::optional<std::string> what_is_missing(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary);
 
 std::string replay_text(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary);
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/cost.hpp"
 
-#include <utility>
-
 #include "algest/boxcar.hpp"
 #include "algest/delay_line.hpp"
 #include "algest/growing_moments.hpp"
 #include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
 #include "generator/cpp_text.hpp"
-#include "generator/planner.hpp"
 
 namespace algest::generator {
 
@@ -20,13 +17,21 @@ using plan::Plan;
 bool twofold(const Plan& plan) { return plan.moments->accumulators == plan::Accumulators::twofold; }
 int rebuilt(const Plan& plan) { return twofold(plan) ? rebuilt_frames<Twofold<float>> : rebuilt_frames<double>; }
 
+int references(const Plan& plan, int signals) { return twofold(plan) ? moment_references<Twofold<float>>(signals) : moment_references<double>(signals); }
+
+int accumulators(const Plan& plan, int signals) {
+    const bool growing = plan.moments->shortest > 0;
+    const int degree = plan.moments->degree;
+    return twofold(plan) ? moment_accumulators<Twofold<float>>(signals, degree, growing) : moment_accumulators<double>(signals, degree, growing);
+}
+
 /// Scalars and bytes of one instance, as the class lays them out (estimator.hpp.mustache).
 int instance_bytes(const Plan& plan) {
     const int unknowns = static_cast<int>(plan.lumped.size());
     const int signals = plan.rings();
     int scalars = sum_scalars(plan.solve, unknowns, plan.solve_instants);
     if (plan.moments) {
-        scalars += moment_ring(signals, plan.samples()) + 2 * (rebuilt(plan) + 1) * signals;
+        scalars += moment_ring(signals, plan.samples()) + 2 * references(plan, signals);
         scalars += published_row_scalars(plan.solve, static_cast<int>(plan.rows.size()), unknowns, static_cast<int>(plan.perturbation.size()));
     } else {
         scalars += ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + published_scalars(plan.solve, unknowns);
@@ -35,7 +40,7 @@ int instance_bytes(const Plan& plan) {
     if (plan.whiten) scalars += unknowns;
     if (plan.ratio) scalars += ratio_scalars(true, unknowns);
     int bytes = static_cast<int>(sizeof(Progress));
-    if (plan.moments) bytes += static_cast<int>(sizeof(MomentProgress)) + (rebuilt(plan) + (plan.moments->shortest > 0 ? 2 : 1)) * signals * (plan.moments->degree + 1) * accumulator_bytes;
+    if (plan.moments) bytes += static_cast<int>(sizeof(MomentProgress)) + accumulators(plan, signals) * accumulator_bytes;
     if (plan.decimate > 1) {
         scalars += boxcar_scalars(signals);
         bytes += static_cast<int>(sizeof(BoxcarProgress));
@@ -61,6 +66,9 @@ int instance_bytes(const Plan& plan) {
     const int alignment = plan.moments && !twofold(plan) ? 8 : scalar_bytes(plan.scalar);
     return (bytes + alignment - 1) / alignment * alignment;
 }
+
+/// Of a table's WindowEnds.
+long ends_bytes(const Plan& plan) { return static_cast<long>(plan.scalar == plan::Scalar::float32 ? sizeof(WindowEnds<float>) : sizeof(WindowEnds<double>)); }
 
 /// Functionals that windows are needed for.
 long evaluated(const plan::RowData<double>& rows) {
@@ -93,11 +101,11 @@ Cost cost_of(const Plan& plan) {
         long powers = d;
         for (const long degree : plan.moments->degrees) powers += degree + 1;
         out.push = (rebuilt(plan) + 2) * powers + out.rows + (plan.perturbation.empty() ? 0 : moment_rows(plan, perturbation));
-        out.table_bytes = tables * ((d + 1) * accumulator_bytes + 4 * scalar_bytes(plan.scalar) + static_cast<int>(sizeof(int)));
+        out.table_bytes = tables * ((d + 1) * accumulator_bytes + ends_bytes(plan)) + static_cast<long>(plan.moments->degrees.size());
         if (plan.moments->shortest > 0) {   // the dearest sample: in the growing window and in the frames of the sliding one
             for (const long degree : plan.moments->degrees) out.push += degree + 1;
             out.push += evaluated(rows) * (d + 2) * (d + 3);
-            out.table_bytes += tables * ((d + 1) * (d + 2) * accumulator_bytes + 1);
+            out.table_bytes += tables * ((d + 1) * (d + 2) * accumulator_bytes + static_cast<long>(sizeof(unsigned char)));   // and the order of the derivative
         }
     } else {
         out.rows = evaluated(rows) * plan.samples();
@@ -109,17 +117,11 @@ Cost cost_of(const Plan& plan) {
 }
 
 std::vector<EngineCost> engine_costs(const std::string& path, PlanOptions options) {
-    Diagnostics diagnostics;   // whoever generates says the same
-    const auto model = model::read(path, false, diagnostics);
-    return model && !model->filter ? engine_costs(*model, std::move(options)) : std::vector<EngineCost>();
-}
-
-std::vector<EngineCost> engine_costs(const model::Model& model, PlanOptions options) {
     options.weights = false;
     std::vector<EngineCost> out;
     for (int k = 0; k < 2; ++k) {
         Diagnostics diagnostics;   // whoever generates says the same
-        const auto plan = plan_of(model, options, diagnostics);
+        const auto plan = plan_from_model(path, options, diagnostics);
         if (!plan) break;
         const std::string engine = plan->moments ? "moments" : "fir";
         if (out.empty() || out[0].engine != engine) out.push_back({engine, cost_of(*plan)});

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "generator/generate.hpp"
-#include "generator/model.hpp"
 #include "generator/plan.hpp"
 
 namespace algest::generator {
@@ -18,9 +17,6 @@ struct Cost {
     long instance_bytes;
     long table_bytes;      ///< constant and shared
     int operations;        ///< of the floating-point unit in one multiply-add of push()
-
-    long multiply_adds() const { return push + estimate; }                 ///< of a sample with an estimate
-    long floating_point() const { return operations * multiply_adds(); }   ///< operations of the same
 };
 Cost cost_of(const plan::Plan& plan);
 
@@ -31,7 +27,6 @@ struct EngineCost {
 /// Of the model's estimator, then of what the other engine would make of it, unless the model cannot have that. Empty where there is no estimator.
 /// Cost: two plans.
 std::vector<EngineCost> engine_costs(const std::string& path, PlanOptions options);
-std::vector<EngineCost> engine_costs(const model::Model& model, PlanOptions options);
 
 /// Of an accumulator of moments; both hold eight.
 constexpr int accumulator_bytes = 8;

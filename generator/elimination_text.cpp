@@ -54,14 +54,6 @@ std::string resultant_text(const plan::Plan& plan, const plan::EliminationStage&
            ". Each of its real roots with each real root of the first derivative is a candidate, and must satisfy both.";
 }
 
-/// Multiply-adds of real_roots.
-long cost_of_roots(long degree) { return 2 * root_halvings<double>() * (degree * (degree + 1) * (2 * degree + 1) / 6); }
-
-long cost(const plan::EliminationStage& s) {
-    if (s.y < 0) return 0;
-    return s.x < 0 ? cost_of_roots(2 * s.degree_y - 1) : cost_of_roots(s.resultant_degree) + s.resultant_degree * cost_of_roots(s.degree_of_first);
-}
-
 }  // namespace
 
 void set_elimination(const plan::Plan& plan, Data& d) {
@@ -79,9 +71,7 @@ void set_elimination(const plan::Plan& plan, Data& d) {
     set_array(d, arrays, "std::uint8_t", "factors", data.factors, suffix);
     set_array(d, arrays, scalar, "sizes", data.sizes, suffix);
     d.set("eliminates", plan.elimination.has_value());
-    long macs = 0;
-    if (plan.elimination) for (const plan::EliminationStage& s : plan.elimination->stages) macs += cost(s);
-    d.set("elimination_macs", std::to_string(macs));
+    d.set("elimination_macs", std::to_string(wide ? elimination_cost(data.view()) : elimination_cost(plan::make_elimination<float>(plan.elimination).view())));
     d.set("elimination_stack", std::to_string(elimination_scratch(data.view()) * (wide ? 8 : 4)));
     d.set("eliminated_parameters", std::to_string(data.parameters));
     d.set("elimination_arrays", listed(arrays));

@@ -27,6 +27,7 @@ const std::string& wanted(const model::Model& model, const std::string& asked) {
 /// Why moments will not do; empty: they will.
 std::string obstacle(const model::Model& model, const plan::Plan& plan) {
     const model::Estimator& e = model.estimator;
+    if (e.functional != model::Functional::annihilator) return "only the annihilator has polynomial kernels on windows";
     const bool alternating = plan.quadrature == plan::Quadrature::simpson &&
                              std::any_of(plan.tables.begin(), plan.tables.end(), [](const plan::Table& t) { return t.hold == plan::Hold::linear; });
     if (alternating) return "Simpson's weights alternate";
@@ -93,18 +94,10 @@ plan::MomentTable moment_table(const plan::Table& table, const plan::Plan& plan,
 
 }  // namespace
 
-bool engine_serves(const model::Model& model, const std::string& asked, Diagnostics& diagnostics) {
-    const model::Estimator& e = model.estimator;
-    if (e.functional == model::Functional::annihilator) return true;
-    if (wanted(model, asked) == "moments") {
-        diagnostics.error(model.path, e.engine_at, "engine moments is for the windows of the annihilator: other functionals have no polynomial kernels on windows", "use engine fir, or leave it out");
-        return false;
-    }
-    if (model.growing) {
-        diagnostics.error(model.path, model.growing_at, "growing windows are for the annihilator", "leave growing out");
-        return false;
-    }
-    return true;
+bool growing_serves(const model::Model& model, Diagnostics& diagnostics) {
+    if (!model.growing || model.estimator.functional == model::Functional::annihilator) return true;
+    diagnostics.error(model.path, model.growing_at, "growing windows are for the annihilator", "leave growing out");
+    return false;
 }
 
 std::optional<plan::Moments> moments(const model::Model& model, const std::string& asked, plan::Plan& plan, Diagnostics& diagnostics) {

@@ -12,12 +12,11 @@ namespace algest::generator {
 /// Largest degree of a kernel's polynomial that moments serve.
 constexpr int largest_moment_degree = 10;
 
-/// asked: the engine that goes over the model's; may be empty. False, with an error, where the functional has no windows for moments, or for
-/// growing ones.
-bool engine_serves(const model::Model& model, const std::string& asked, Diagnostics& diagnostics);
+/// False, with an error, where the model asks for growing windows and the functional has none.
+bool growing_serves(const model::Model& model, Diagnostics& diagnostics);
 
-/// The moments of a plan whose tables and rows stand. asked: as for engine_serves. Empty where fir serves: because
-/// it is asked for, or, with a note in the plan that says why, because only whole windows will do. A growing window that only moments could serve
+/// The moments of a plan whose tables and rows stand. asked: the engine that goes over the model's; may be empty. Empty where fir serves: because
+/// it is asked for, or, with a note in the plan that says why, because moments will not do. A growing window that only moments could serve
 /// is then an error.
 std::optional<plan::Moments> moments(const model::Model& model, const std::string& asked, plan::Plan& plan, Diagnostics& diagnostics);
 

@@ -42,7 +42,7 @@ public:
         : model_(model), options_(options), diagnostics_(diagnostics) {}
 
     std::optional<plan::Plan> run() {
-        if (!what_is_missing() || !engine_serves(model_, options_.engine, diagnostics_)) return std::nullopt;
+        if (!what_is_missing() || !growing_serves(model_, diagnostics_)) return std::nullopt;
         if (model_.discrete) return run_discrete();
         const auto forms = operator_forms(model_, diagnostics_);
         if (!forms) return std::nullopt;

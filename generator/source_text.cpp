@@ -100,6 +100,7 @@ void skip_string(Walker& w) {
 std::optional<Position> not_utf8(const std::string& text) {
     Walker w{text};
     w.skip_byte_order_mark();
+    Position place{1, 1};   // the walker counts a stray continuation byte as a part of the character before
     while (w.at < text.size()) {
         const unsigned char first = static_cast<unsigned char>(text[w.at]);
         const std::size_t size = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
@@ -108,8 +109,9 @@ std::optional<Position> not_utf8(const std::string& text) {
         const bool beyond = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);   // surrogates, U+110000
         bool good = size > 0 && !overlong && !beyond;
         for (std::size_t k = 1; k < size; ++k) good = good && is_continuation(w.peek(k));
-        if (!good) return w.place;
+        if (!good) return place;
         for (std::size_t k = 0; k < size; ++k) w.step();
+        place = first == '\n' ? Position{place.line + 1, 1} : Position{place.line, place.column + 1};
     }
     return std::nullopt;
 }

@@ -149,9 +149,11 @@ public:
         for (const Stretch& at : places.plain) {
             replace(e, at, is_reversed(s, e, at) ? "-" + in_parentheses(s.by) : s.by);
         }
-        const std::string derivative = s.derivative.empty() && is_word(s.by) ? "der(" + s.by + ")" : s.derivative;
-        if (derivative.empty()) return;
-        for (const Stretch& at : places.derivatives) replace(e, at, filled(derivative, {{"derivative", s.what[0] == '(' ? in_parentheses(e.ode.substr(at.begin, at.end - at.begin)) : e.ode.substr(at.begin, at.end - at.begin)}}));
+        for (const Stretch& at : places.derivatives) {
+            const std::string written = e.ode.substr(at.begin, at.end - at.begin);
+            if (!s.derivative.empty()) replace(e, at, filled(s.derivative, {{"derivative", s.what[0] == '(' ? in_parentheses(written) : written}}));
+            else if (is_word(s.by)) replace(e, at, of_another_signal(written, s.what, s.by));
+        }
     }
 
     /// An entry of a table, behind the last one that stands on a line of its own; else a table of its own at the end.
@@ -216,6 +218,11 @@ private:
         if (s.what[0] != '(') return false;
         const std::string first = s.what.substr(1, s.what.find('-') - 1);
         return e.ode.compare(at.begin, first.size(), first) != 0 || is_word(e.ode.substr(at.begin, first.size() + 1));
+    }
+
+    /// der(x,2) -> der(y,2).
+    static std::string of_another_signal(std::string derivative, const std::string& signal, const std::string& other) {
+        return derivative.replace(derivative.find(signal, derivative.find('(')), signal.size(), other);
     }
 
     static std::string in_parentheses(const std::string& text) { return "(" + text + ")"; }

@@ -58,7 +58,7 @@ std::string rate_of(const model::Model& model, const std::string& x) {
 }
 
 bool has_role(const Effect& effect, const std::string& kind) {
-    return std::any_of(effect.roles.begin(), effect.roles.end(), [&](const auto& role) { return role.second == kind; });
+    return std::any_of(effect.roles.begin(), effect.roles.end(), [&](const auto& role) { return role.second == kind || role.second == "unsigned_" + kind; });
 }
 
 /// A sensor's fault shows in every equation with its signal, and is said to be where that signal is moved.

@@ -139,18 +139,12 @@ private:
         return out;
     }
 
-    /// By the counts of `generate`; of two alike the model's own.
-    static generator::EngineCost engine_of(const model::Model& model) {
-        const auto costs = generator::engine_costs(model, {});
-        return *std::min_element(costs.begin(), costs.end(), [](const auto& a, const auto& b) { return a.cost.floating_point() < b.cost.floating_point(); });
-    }
-
     std::optional<Trial> tried(const model::Model& model) const {
         Diagnostics unsaid;   // another kappa may erase what is to be estimated: then it is no choice
         const auto plan = plan_of(model, true, unsaid);
         const auto replayed = plan ? replay(*plan, recording_, {}, unsaid) : std::nullopt;
         if (!replayed) return std::nullopt;
-        Trial out{exact::nearest(*model.window, plan::Scalar::float64), {}, {}, engine_of(model), 0, {}, {}};
+        Trial out{exact::nearest(*model.window, plan::Scalar::float64), {}, {}, cheaper_engine(model), 0, {}, {}};
         for (const model::Equation& e : model.equations) out.kappa.push_back(e.kappa);
         out.rows = rows_of(*plan);
         const std::size_t from = replayed->samples() / 2;
@@ -275,7 +269,9 @@ private:
         return other != nullptr && !good_enough && other->error < worth_a_change * plain->error ? *other : *plain;
     }
 
-    std::vector<std::string> lacking(const model::Model& model) const {
+    std::vector<std::string> lacking(model::Model model) const {
+        model.growing = false;   // rows at hand are those of whole windows, by weights
+        model.estimator.engine = "fir";
         Diagnostics unsaid;
         const auto plan = plan_of(model, true, unsaid);
         return plan ? missing_excitation(*plan, recording_) : std::vector<std::string>();

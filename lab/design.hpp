@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "generator/cost.hpp"
 #include "generator/diagnostics.hpp"
 #include "generator/model.hpp"
+#include "lab/engine_choice.hpp"
 #include "lab/recording.hpp"
 
 namespace algest::lab {
@@ -18,7 +18,7 @@ struct Trial {
     double window_s;
     std::vector<int> kappa;               ///< by equation of the model
     std::vector<std::vector<int>> rows;   ///< by equation: the p of its rows
-    generator::EngineCost engine;         ///< of those that the model can have the one with fewer operations a sample
+    EngineChoice engine;
     double ok;                            ///< share of samples of the second half that are ok
     std::vector<double> mean;
     std::vector<double> scatter;          ///< standard deviation over time

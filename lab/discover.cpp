@@ -2,6 +2,7 @@
 #include "lab/discover.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,20 @@ bool nearer(const std::vector<RecordingEvidence>& recordings) {
     return gain > 0;
 }
 
+/// A sentence for every reason why effects were left out.
+std::vector<std::string> untried(const Workbench& bench) {
+    std::vector<std::string> out;
+    std::vector<std::string> without_place;
+    for (const auto& [effect, why] : bench.unwritten()) {
+        if (why.empty() || why.starts_with("unknown key")) without_place.push_back(effect);
+        else out.push_back(fmt::format("{} was not tried, for the model with it is none: {}", effect, why));
+    }
+    if (!without_place.empty()) {
+        out.push_back(fmt::format("not tried, for the model file leaves no place for what they bring: {}; write [parameters], [constants] and [signals] as sections with a line for each entry", fmt::join(without_place, ", ")));
+    }
+    return out;
+}
+
 /// Takes back what was named.
 void refute(Discovery& out) {
     out.verdict = Verdict::unknown;
@@ -193,14 +208,13 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
             bench.measure_by(Yardstick::free_run);
         }
     }
+    if (!names_something(out.verdict) && guesses_noise(nominal->model, nominal->bench)) out.verdict = judge(bench, *nominal, selection, Floor::a_guess);
 
     if (progress) progress("confirm", 0.9);
     bench.refine(*nominal);
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
     out.doubts = doubts(bench, *nominal, selection, out.verdict);
-    if (!bench.unwritten().empty()) {
-        out.doubts.push_back(fmt::format("not tried, since the model file with them in it was no model: {}; write [parameters], [constants] and [signals] as sections with a line for each entry", fmt::join(bench.unwritten(), ", ")));
-    }
+    for (const std::string& doubt : untried(bench)) out.doubts.push_back(doubt);
     bool stands = names_something(out.verdict);
     out.evidence = std::move(selection.evidence);
     const Variant* amended = stands ? &selection.best : nullptr;

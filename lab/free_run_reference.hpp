@@ -13,6 +13,6 @@ namespace algest::lab {
 /// sensors' noise explains: a fit then bends the parameters to what the model misses.
 /// Cost: a fit, of at most `most_effort` operations.
 std::optional<std::vector<double>> free_run_reference(const model::Model& model, const Recording& recording);
-constexpr double most_effort = 5e9;
+constexpr double most_effort = 2e9;
 
 }  // namespace algest::lab

@@ -36,15 +36,9 @@ std::vector<std::string> unseen(const Variant& v) {
     return out;
 }
 
-/// True when some output's noise is taken from its roughness.
-bool guesses_noise(const Variant& v) {
-    const auto outputs = scored_outputs(v.model, v.bench);
-    return std::any_of(outputs.begin(), outputs.end(), [&](int s) { return !declares_noise(v.model.signals[static_cast<std::size_t>(s)]); });
-}
-
 }  // namespace
 
-Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection) {
+Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection, Floor floor) {
     const Variant& best = selection.best;
     if (nominal.score.gap() <= at_the_floor) return Verdict::none;
     const bool spoken_for = std::any_of(selection.evidence.begin(), selection.evidence.end(), [](const Evidence& e) { return e.strength > no_noise; });
@@ -54,7 +48,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     const double left = best.score.nrmse / nominal.score.nrmse;
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
-    } else if (best.score.gap() > far_from_the_floor && !(guesses_noise(nominal) && left <= most_of_it)) {   // a floor that is a guess is no bar
+    } else if (best.score.gap() > far_from_the_floor && !(floor == Floor::a_guess && left <= most_of_it)) {
         if ((best.score.gap() > too_far_for_noise && !white(best.score)) || structured(bench, best)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }

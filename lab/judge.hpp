@@ -10,7 +10,11 @@
 
 namespace algest::lab {
 
-Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection);
+/// What the floor of a gap is worth as a bar. Where no noise is declared it is a guess: an effect that takes most of the gap away is then named
+/// though more than that floor is left.
+enum class Floor { known, a_guess };
+
+Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& selection, Floor floor = Floor::known);
 
 /// A sentence for each thing that a reader should not take for granted.
 std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, const Selection& selection, Verdict verdict);

@@ -29,15 +29,21 @@ std::size_t length(const matvar_t& v) {
     return v.dims[0] * v.dims[1];
 }
 
+/// A damaged file may promise more elements than it has.
+template <class Number>
+bool holds(const matvar_t& v) {
+    return v.data != nullptr && v.nbytes / sizeof(Number) >= length(v);
+}
+
 template <class Number>
 std::vector<double> as_doubles(const matvar_t& v) {
+    if (!holds<Number>(v)) return {};
     const auto* const data = static_cast<const Number*>(v.data);
     return std::vector<double>(data, data + length(v));
 }
 
 /// Empty where there are none, or where the file gives them in a type that it does not say of the variable.
 std::vector<double> numbers(const matvar_t& v) {
-    if (v.data == nullptr) return {};
     switch (v.data_type) {
         case MAT_T_DOUBLE: return as_doubles<double>(v);
         case MAT_T_SINGLE: return as_doubles<float>(v);
@@ -55,11 +61,11 @@ std::vector<double> numbers(const matvar_t& v) {
 std::optional<std::string> unit_of(matvar_t* units, const std::string& name) {
     if (units == nullptr || units->class_type != MAT_C_STRUCT) return std::nullopt;
     const matvar_t* field = Mat_VarGetStructFieldByName(units, name.c_str(), 0);
-    if (field == nullptr || field->class_type != MAT_C_CHAR || field->data == nullptr) return std::nullopt;
+    if (field == nullptr || field->class_type != MAT_C_CHAR) return std::nullopt;
+    const bool wide = field->data_size == 2;
+    if (!(wide ? holds<mat_uint16_t>(*field) : holds<mat_uint8_t>(*field))) return std::nullopt;
     std::string out;
-    for (std::size_t k = 0; k < length(*field); ++k) {
-        out += static_cast<char>(field->data_size == 2 ? static_cast<const mat_uint16_t*>(field->data)[k] : static_cast<const mat_uint8_t*>(field->data)[k]);
-    }
+    for (std::size_t k = 0; k < length(*field); ++k) out += static_cast<char>(wide ? static_cast<const mat_uint16_t*>(field->data)[k] : static_cast<const mat_uint8_t*>(field->data)[k]);
     return out;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/fit.hpp"
+
 namespace algest::lab {
 
 double roughness(const std::vector<double>& x) {
@@ -18,6 +20,11 @@ double roughness(const std::vector<double>& x) {
 
 bool declares_noise(const model::Signal& signal) {
     return (signal.noise && !cln::zerop(*signal.noise)) || (signal.resolution && !cln::zerop(*signal.resolution));
+}
+
+bool guesses_noise(const model::Model& model, const Bench& bench) {
+    const auto outputs = scored_outputs(model, bench);
+    return std::any_of(outputs.begin(), outputs.end(), [&](int s) { return !declares_noise(model.signals[static_cast<std::size_t>(s)]); });
 }
 
 std::vector<double> noise_by_signal(const model::Model& model, const Bench& bench) {

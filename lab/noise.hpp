@@ -10,6 +10,9 @@ namespace algest::lab {
 /// A sensor without any noise is none: noise = 0 declares nothing.
 bool declares_noise(const model::Signal& signal);
 
+/// True when some scored output declares none: its floor is then a guess, and no bar.
+bool guesses_noise(const model::Model& model, const Bench& bench);
+
 /// Standard deviation by signal, in its unit: declared noise and resolution; else, of signals that move, their roughness; else 0.
 std::vector<double> noise_by_signal(const model::Model& model, const Bench& bench);
 

@@ -9,7 +9,8 @@ namespace algest::lab {
 
 namespace {
 
-/// Means that differ by less than this part of the largest are the same.
+/// Means that differ by less than this part of the largest are the same: a sensor's noise moves the mean of a steady stretch by about as much, and
+/// nobody who wants a second operating point sets a speed or a load that is so near to the first.
 constexpr double same = 1e-3;
 
 bool is_constant(const OperatingPoints& points, std::size_t quantity) {
@@ -23,6 +24,16 @@ bool is_constant(const OperatingPoints& points, std::size_t quantity) {
 }
 
 }  // namespace
+
+const char* name(Standing standing) {
+    switch (standing) {
+        case Standing::best: return "best";
+        case Standing::extremum: return "extremum";
+        case Standing::unreal: return "unreal";
+        case Standing::spurious: return "spurious";
+    }
+    return "?";
+}
 
 const char* in_words(Standing standing) {
     switch (standing) {

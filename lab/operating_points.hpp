@@ -30,7 +30,10 @@ struct EliminationCandidate {
     Standing standing;
 };
 
-/// "the estimate", "an extremum with a larger error", ...
+/// For programs: best, extremum, unreal, spurious.
+const char* name(Standing standing);
+
+/// For people: "the estimate", "an extremum with a larger error", ...
 const char* in_words(Standing standing);
 
 /// The runtime's candidates with names, units and true sizes; the best first, spurious ones last, else in order of their errors.

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace algest::lab {
@@ -12,6 +13,7 @@ namespace algest::lab {
 namespace {
 
 constexpr double unseen_by_rows = 4;      ///< F statistic that chance reaches once in twenty
+constexpr double the_same = 1e-3;         ///< of the validation error: fits stop at 1e-4 of their cost; two accounts that differ by less are one
 constexpr double rows_are_sure = 9.2;     ///< by which another one is larger: a likelihood ratio of exp(9.2/2), 100 to 1
 
 /// The amendments of v that are not of `other`.
@@ -75,7 +77,10 @@ bool Precedence::before(const Contender& a, const Contender& b) const {
 
 Precedence::Standing Precedence::beside(const Contender& named, const Contender& other) const {
     const bool plainer = held_back(*named.variant) < held_back(*other.variant) || yields(*other.variant, *named.variant);
-    if (plainer) return are_rivals(*named.variant, *other.variant) ? Standing::as_well : Standing::nothing;
+    if (plainer) {
+        const bool same = std::abs(other.variant->score.nrmse - named.variant->score.nrmse) < the_same * named.variant->score.nrmse;
+        return same || are_rivals(*named.variant, *other.variant) ? Standing::as_well : Standing::nothing;
+    }
     if (rows_prefer(named, other)) return Standing::as_well;
     return before(named, other) ? Standing::nothing : Standing::rival;
 }

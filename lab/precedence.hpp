@@ -27,7 +27,7 @@ public:
     /// What `other` is beside the set that is named.
     enum class Standing {
         nothing,
-        as_well,   ///< a rival by the effects' files, but the less plain account
+        as_well,   ///< a rival by the effects' files, or one to the last digit, but the less plain account
         rival
     };
     Standing beside(const Contender& named, const Contender& other) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "lab/fit.hpp"
+#include "lab/noise.hpp"
 
 namespace algest::lab {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
 constexpr std::size_t clipped_run = 5;        ///< samples in a row at an extreme that no noise would make alike
+constexpr double overstated = 3;              ///< declared noise over roughness: white noise is as rough as it is large, coloured noise less
 constexpr double still_share = 0.5;           ///< of an input's steps that are zero: it is held
 constexpr std::size_t least_jumps = 3;
 
@@ -61,6 +63,11 @@ std::vector<std::string> recording_doubts(const model::Model& model, const Bench
         }
         if (std::find(outputs.begin(), outputs.end(), static_cast<int>(s)) != outputs.end()) {
             const double share = clipped(x);
+            const double declared = signal.noise ? exact::nearest(*signal.noise, plan::Scalar::float64) : 0.0;
+            const double rough = roughness(x);
+            if (rough > 0 && declared > overstated * rough) {
+                out.push_back(fmt::format("'{}' is {:.2g} times smoother than the noise that it declares, {:.3g} {}: an effect that hides below that is not looked for", signal.name, declared / rough, declared, signal.unit));
+            }
             if (share > clipped_share) out.push_back(fmt::format("'{}' stands at its largest or smallest value for {:.1f} percent of the recording: its sensor may be clipped", signal.name, 100 * share));
         }
         if (bench.drive.values[s].empty()) continue;

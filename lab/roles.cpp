@@ -118,7 +118,7 @@ std::string time_name(const model::Model& model) {
 const std::vector<RoleKind>& role_kinds() {
     static const std::vector<RoleKind> kinds = {{"own", {}}, {"speed", {"rad/s", "m/s"}}, {"position", {"rad", "m"}}, {"angle", {"rad"}}, {"current", {"A"}},
                                                 {"any_speed", {"rad/s", "m/s"}}, {"input", {}}, {"time", {"s"}},
-                                                {"sensor", {}}, {"actuator", {}}, {"drive", {"A", "N.m", "N"}}, {"leading", {}}, {"factor", {}}, {"difference", {"rad", "m"}}, {"constant", {}},
+                                                {"sensor", {}}, {"unsigned_sensor", {}}, {"actuator", {}}, {"drive", {"A", "N.m", "N"}}, {"leading", {}}, {"factor", {}}, {"difference", {"rad", "m"}}, {"constant", {}},
                                                 {"d_current", {"A"}}, {"q_current", {"A"}}, {"rotor_speed", {"rad/s"}}, {"pole_pairs", {"1"}}};
     return kinds;
 }
@@ -134,7 +134,7 @@ std::vector<Filler> fillers(const std::string& kind, const model::Model& model, 
     const Unit unit = unit_of(signal);
     const bool is_speed = own.order == 1 && (fits(unit, "rad/s") || fits(unit, "m/s"));
     const bool is_position = own.order == 2 && (fits(unit, "rad") || fits(unit, "m"));
-    if (kind == "sensor" && measured[static_cast<std::size_t>(own.signal)] && signal.scored) out.push_back({signal.name, signal.unit});
+    if ((kind == "sensor" || kind == "unsigned_sensor") && measured[static_cast<std::size_t>(own.signal)] && signal.scored) out.push_back({signal.name, signal.unit});
     if (kind == "own") out.push_back({signal.name, signal.unit});
     if (kind == "current" && fits(unit, "A")) out.push_back({signal.name, signal.unit});
     if (kind == "speed") {

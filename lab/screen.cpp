@@ -7,6 +7,7 @@
 
 #include "lab/golden_section.hpp"
 #include "lab/largest_size.hpp"
+#include "lab/noise.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
@@ -60,11 +61,11 @@ public:
     std::vector<Candidate> of(const Effect& effect) {
         std::vector<Candidate> out;
         for (const Binding& binding : bindings(effect, base_.whole, measured_)) {
-            if (enters_what_was_added(binding)) continue;
+            if (enters_what_was_added(binding) || goes_below_zero(binding)) continue;
             Candidate best{binding, 0, 0, 0, {}, {}};
             const std::vector<double> scans = effect.scans.empty() ? std::vector<double>{0.0} : effect.scans[0].spectrum ? lines(binding) : scan_values(effect.scans[0], counted_in(effect.scans[0], binding));
             // Rows do not see a state, and what equations share they see one by one; a scan's value they know better than a run that has gone astray.
-            const bool by_rows = effect.rewrite == Rewrite::add_term || (!effect.scans.empty() && effect.states.empty()) || (bench_.yardstick() == Yardstick::rows && effect.states.empty());
+            const bool by_rows = effect.rewrite == Rewrite::add_term || (!effect.scans.empty() && effect.states.empty()) || effect.rewrite == Rewrite::free_constant;
             std::vector<Candidate> weighed;
             for (const double scan : by_rows ? scans : std::vector<double>()) {
                 weighed.push_back(weigh(binding, scan));
@@ -91,6 +92,21 @@ private:
         std::size_t added = 0;
         for (const Amendment& a : base_.amendments) added += a.states.size();
         return std::any_of(binding.equations.begin(), binding.equations.end(), [&](std::size_t e) { return e + added >= base_.whole.equations.size(); });
+    }
+
+    /// What stands for an unsigned sensor is negative somewhere, by more than noise makes of zero.
+    bool goes_below_zero(const Binding& binding) const {
+        constexpr double deviations = 4;
+        for (const auto& [role, kind] : binding.effect->roles) {
+            if (kind != "unsigned_sensor") continue;
+            const auto s = static_cast<std::size_t>(base_.model.signal_index(binding.roles[0].at(role)));
+            for (std::size_t r = 0; r < bench_.recordings(); ++r) {
+                const Bench& own = bench_of(base_, r);
+                const double least = *std::min_element(own.measured[s].begin(), own.measured[s].end());
+                if (least < -deviations * noise_by_signal(base_.model, own)[s]) return true;
+            }
+        }
+        return false;
     }
 
     double counted_in(const EffectScan& scan, const Binding& binding) {
@@ -412,6 +428,13 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// It brings no number at all.
+bool is_sizeless(const Effect& effect) { return effect.parameters.empty() && effect.scans.empty() && effect.freed.empty(); }
+
+}  // namespace
+
 std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::vector<Effect>& effects, std::size_t by_rows, std::size_t by_run) {
     Screen screen(bench, base);
     std::vector<Candidate> all;
@@ -438,7 +461,14 @@ std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::
     for (Candidate& c : out) if (!bench.used_up()) slope.weigh(c);
     for (Candidate& c : rest) if ((c.binding.effect->scans.empty() || !c.scans.empty() || c.strength > 0) && !bench.used_up()) slope.weigh(c);   // else the weak form had to find the scan's value
     std::stable_sort(rest.begin(), rest.end(), [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
-    for (std::size_t k = 0; k < rest.size() && k < by_run && rest[k].share > least_share; ++k) out.push_back(std::move(rest[k]));
+    std::size_t taken = 0;
+    for (Candidate& c : rest) {
+        // What has no size has no slope either: only a fit can weigh it.
+        if (is_sizeless(*c.binding.effect)) c.share = 1;
+        else if (taken == by_run || !(c.share > least_share)) continue;
+        else ++taken;
+        out.push_back(std::move(c));
+    }
     return out;
 }
 

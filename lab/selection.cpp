@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lab/golden_section.hpp"
+#include "lab/noise.hpp"
 #include "lab/precedence.hpp"
 #include "lab/screen.hpp"
 #include "lab/spectrum.hpp"
@@ -25,6 +26,7 @@ constexpr std::size_t bases = 2;                ///< that a further effect is tr
 constexpr double on_the_floor = 1.03;           ///< gap that leaves nothing to a second effect
 constexpr double still_falling = 0.7;           ///< validation error over the base's, below which a fit that has not ended goes on
 constexpr double needed_gain = 0.95;            ///< an effect must bring the validation error below this times what it was
+constexpr double needed_gain_of_further = 0.8;  ///< the same of a further effect where noise is guessed: nothing says what noise would leave
 constexpr double needed_significance = 2.5;     ///< standard errors of the difference over blocks (16: a t of 2.5 is 1 in 40)
 constexpr double alike = 1.05;                  ///< validation errors within this ratio are not told apart,
 constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
@@ -133,7 +135,7 @@ Variant sharply_switched(const Workbench& bench, Variant best) {
 }
 
 /// Without every effect whose absence is not noticed.
-Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
+Variant pruned(Workbench& bench, Variant best, const Variant& nominal, double gain) {
     for (bool changed = true; changed && best.amendments.size() > 1;) {
         changed = false;
         for (std::size_t without = 0; without < best.amendments.size() && !changed; ++without) {
@@ -143,7 +145,7 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
             auto v = bench.prepare(amended_in_turn(nominal.text, bench.path(), kept), kept, quiet);
             if (!v) continue;
             bench.fit_and_score(*v, carried_over(*v, best), carried_initial(*v, best));
-            if (worth_it(best.score, v->score)) continue;
+            if (worth_it(best.score, v->score, gain)) continue;
             best = std::move(*v);
             changed = true;
         }
@@ -153,16 +155,18 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal) {
 
 }  // namespace
 
-bool worth_it(const Score& a, const Score& b) {
+bool worth_it(const Score& a, const Score& b, double gain) {
     double ratio = 0;   // geometric mean over outputs: each counts alike, whatever its floor
     for (std::size_t o = 0; o < a.error.size(); ++o) ratio += std::log(std::max(a.error[o], 1e-300) / std::max(b.error[o], 1e-300)) / static_cast<double>(a.error.size());
-    return std::exp(ratio) < needed_gain && significance(a, b) > needed_significance;
+    return std::exp(ratio) < gain && significance(a, b) > needed_significance;
 }
 
 Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const StepReport& progress) {
     Selection out{nominal, {}, {}, false};
     const Precedence precedence(effects);
     std::vector<Base> beside = {{nominal, {}}};
+    const bool guessed = bench.yardstick() == Yardstick::free_run && guesses_noise(nominal.model, nominal.bench);
+    const auto gain_of = [&](std::size_t effects_in_all) { return guessed && effects_in_all > 1 ? needed_gain_of_further : needed_gain; };
     bool ahead = false;   // the last step's effects are not worth it alone, a further one may show that they are
     std::set<std::set<std::string>> tried;
     for (int step = 1; step <= most_effects; ++step) {
@@ -191,8 +195,9 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         if (fitted.empty()) break;
         std::vector<std::size_t> order(fitted.size());
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+        const double gain = gain_of(out.best.amendments.size() + 1);
         std::vector<std::pair<bool, double>> merit;   // what is worth adding comes first: the criterion counts the rows of a poor fit as few
-        for (const Variant& v : fitted) merit.emplace_back(worth_it(v.score, out.best.score), criterion(v, nominal));
+        for (const Variant& v : fitted) merit.emplace_back(worth_it(v.score, out.best.score, gain), criterion(v, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
         // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does, and so does dry friction that falls.
         const auto contender = [&](std::size_t k) { return Contender{&fitted[k], out.evidence[row[k].back()].strength}; };
@@ -206,7 +211,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
             if (next.size() < bases && fitted[k].score.nrmse < a_base_within * top.score.nrmse) next.push_back({fitted[k], row[k]});
         }
         // Two that mend nothing alone are named together only where they explain everything.
-        if (!worth_it(top.score, out.best.score) || (ahead && top.score.gap() > far_from_the_floor)) {
+        if (!worth_it(top.score, out.best.score, gain) || (ahead && top.score.gap() > far_from_the_floor)) {
             if (ahead) break;
             ahead = true;
             beside = std::move(next);
@@ -233,7 +238,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
     }
     out.cut_short = bench.used_up();
     const std::size_t before = out.best.amendments.size();
-    out.best = pruned(bench, out.best, nominal);
+    out.best = pruned(bench, out.best, nominal, gain_of(2));
     if (out.best.amendments.size() < before) {
         out.rivals.clear();
         out.as_well.clear();

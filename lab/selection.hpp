@@ -22,8 +22,8 @@ struct Selection {
     std::vector<std::string> as_well = {};   ///< doubts: what explains as much as what was chosen, and is the less plain account
 };
 
-/// True when a is so much nearer than b that adding something to b is worth it.
-bool worth_it(const Score& a, const Score& b);
+/// True when a is so much nearer than b that adding something to b is worth it: its error surely below `gain` times b's.
+bool worth_it(const Score& a, const Score& b, double gain);
 
 /// Searches until the gap is at the floor, nothing is worth adding, three effects stand, or the effort of the bench is used up.
 Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const StepReport& progress);

@@ -24,6 +24,8 @@ constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
 constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
 constexpr int search_iterations = 12;
+constexpr int iterations_from_elsewhere = 40;
+constexpr double hopeless = 0.3;                ///< nrmse of a fit from which on it is tried from elsewhere
 constexpr std::size_t rows_of_an_undriven_run = 4000;
 constexpr double lasting = 0.3;                 ///< share of a disturbed start that is still there a third of the way on: it does not fade
 constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations, shorter where they would be too few
@@ -37,6 +39,12 @@ void names_in(const formula::Formula& f, std::set<std::string>& out) {
 /// The rows of an equation that is not linear in a parameter take its initial value: that becomes what was fitted.
 void start_at_fit(Variant& v) {
     for (std::size_t p = 0; p < v.model.parameters.size(); ++p) if (std::isfinite(v.fit.parameters[p])) v.model.parameters[p].initial = exact::from_double(v.fit.parameters[p]);
+}
+
+std::vector<double> declared_values(const model::Model& model) {
+    std::vector<double> out;
+    for (const model::Parameter& p : model.parameters) out.push_back(exact::nearest(*p.initial, plan::Scalar::float64));
+    return out;
 }
 
 /// der(x) = v.
@@ -138,7 +146,7 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     Diagnostics quiet;
     Diagnostics& said = amendments.empty() ? diagnostics : quiet;
     auto model = model::read_from_text(text, path_, false, said);
-    if (!model && !amendments.empty()) unwritten_.insert(amendments.back().effect);
+    if (!model && !amendments.empty()) unwritten_.emplace(amendments.back().effect, quiet.has_errors() ? quiet.sorted().front().what : "");
     if (!model) return std::nullopt;
     if (amendments.empty()) find_idle_kinematics(*model);
     const model::Model whole = *model;
@@ -218,8 +226,30 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
         }
     }
     v.fit = fit(v.model, v.bench, from);
+    if (!(v.fit.cost < hopeless * hopeless)) fit_from_elsewhere(v, from);
     start_at_fit(v);
     v.score = free_run_score(v);
+}
+
+/// A fit that explains next to nothing is caught in a false minimum, or the model is wrong from the start: values that were declared, and
+/// what rows alone say, are tried as they are.
+void Workbench::fit_from_elsewhere(Variant& v, FitStart from) const {
+    std::vector<std::vector<double>> starts = {declared_values(v.model)};
+    for (const int intervals : weak_intervals(parts().fitted)) starts.push_back(weak_estimate(v.model, stretches(v, &Parts::fitted), intervals, starts[0]).parameters);
+    from.initial = v.bench.initial;
+    for (std::size_t r = 0; r < from.further.size(); ++r) from.further[r].initial = v.further[r].initial;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& start : starts) {
+        FitStart at = from;
+        at.parameters = start;
+        const double error = output_error(v.model, v.bench, at);
+        if (!(error < least)) continue;
+        least = error;
+        from.parameters = start;
+    }
+    from.most_iterations = iterations_from_elsewhere;
+    Fit other = fit(v.model, v.bench, from);
+    if (other.cost < v.fit.cost) v.fit = std::move(other);
 }
 
 FitStart Workbench::start_of(const Variant& v, const Variant& from, Rows Parts::*part) const {

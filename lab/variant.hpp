@@ -2,6 +2,7 @@
 // A model text with what was added to it, run, fitted and scored on the parts of a recording.
 #pragma once
 #include <optional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -103,8 +104,8 @@ public:
     Yardstick yardstick() const { return yardstick_; }
     void measure_by(Yardstick yardstick) { yardstick_ = yardstick; }
 
-    /// Effects whose amended text was no model: nothing is known of them.
-    const std::set<std::string>& unwritten() const { return unwritten_; }
+    /// Effects whose amended text was no model, and why: nothing is known of them.
+    const std::map<std::string, std::string>& unwritten() const { return unwritten_; }
 
     std::size_t recordings() const { return trials_.size(); }
     const Parts& parts(std::size_t recording = 0) const { return trials_[recording].parts; }
@@ -117,6 +118,7 @@ public:
 private:
     void find_idle_kinematics(const model::Model& model);
     void drop_idle_kinematics(model::Model& model) const;
+    void fit_from_elsewhere(Variant& v, FitStart from) const;
     Score free_run_score(const Variant& v) const;
     Score rows_score(const Variant& v) const;
 
@@ -131,7 +133,7 @@ private:
     std::string path_;
     std::vector<Trial> trials_;
     std::set<std::string> idle_;
-    std::set<std::string> unwritten_;
+    std::map<std::string, std::string> unwritten_;
     Yardstick yardstick_ = Yardstick::free_run;
     Effort effort_;
 };

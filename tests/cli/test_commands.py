@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from command_line import L, R, RL_CIRCUIT, CommandLine, coil_rows, csv
-from environment import ALGEST
+from environment import ALGEST, SOURCE
 
 
 class Parsing(CommandLine):
@@ -153,6 +153,18 @@ class Generate(CommandLine):
         _, err = self.algest("generate", "simpson.toml", "--engine", "moments")
         self.assertIn("engine fir instead of moments: Simpson's weights alternate", err)
         self.assertIn("engine fir", (self.folder / "generated/rl/rl.hpp").read_text())
+
+    def test_models_without_polynomial_kernels_fall_back_to_fir_too(self):
+        asking = RL_CIRCUIT + '[estimator]\nfunctional = "derivative"\nengine = "moments"\n'
+        self.write("asking.toml", asking)
+        for arguments in (["asking.toml"], ["rl.toml", SOURCE / "models/servo.toml", SOURCE / "models/pmsm_sensorless.toml", "--engine", "moments"]):
+            _, err = self.algest("generate", *arguments)
+            self.assertIn("engine fir instead of moments: only the annihilator has polynomial kernels on windows", err)
+        self.assertIn("engine fir", (self.folder / "generated/servo/servo.hpp").read_text())
+        self.assertIn("engine moments", (self.folder / "generated/rl/rl.hpp").read_text())
+        self.write("growing.toml", asking.replace("window = 0.05", "window = 0.05\ngrowing = true"))
+        _, err = self.algest("generate", "growing.toml", exit_code=2)
+        self.assertIn("growing windows are for the annihilator", err)
 
     def test_check_writes_nothing_and_shows_the_difference(self):
         out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)

@@ -160,8 +160,8 @@ class Design(CommandLine):
                 for t in curve[::4]:
                     self.write("windowed.toml", with_window(text, t["window_s"]))
                     costs = self.algest_json("generate", "windowed.toml", "-o", "out")["models"][0]["cost"]
-                    least = min(costs, key=lambda cost: cost["operations"])
-                    self.assertEqual((t["engine"], 2 * t["multiply_adds"]), (least["engine"], least["operations"]), t["window_s"])   # one product, one sum
+                    counted = {cost["engine"]: cost["operations"] for cost in costs}
+                    self.assertEqual(2 * t["multiply_adds"], counted[t["engine"]], t["window_s"])   # one product, one sum
 
     def test_simulated_motor(self):
         text = (SOURCE / "models" / "pmsm_electrical.toml").read_text().replace("period = 1e-3", "period = 1e-4")

@@ -52,20 +52,25 @@ class OperatingPoints(CommandLine):
         self.assertAlmostEqual(last["a"], float(A), delta=1e-12)
         self.assertAlmostEqual(last["b"], float(B), delta=1e-12)
         standings = [c["standing"] for c in found["candidates"]]
-        self.assertEqual(standings[0], "the estimate")
-        self.assertEqual(standings.count("the estimate"), 1)
+        self.assertEqual(standings[0], "best")
+        self.assertEqual(standings.count("best"), 1)
+        self.assertLessEqual(set(standings), {"best", "extremum", "unreal", "spurious"})
+        self.assertEqual(found["missing"], [])
         self.assertAlmostEqual(found["candidates"][0]["values"]["a"], float(A), delta=1e-12)
         text, _ = self.algest("replay", "points.toml", "run.csv")
         self.assertIn("4 operating points", text)
         self.assertIn("balance: a = 1.5, squared error", text)
+        self.assertIn(": the estimate\n", text)
 
     def test_one_value_of_w_leaves_b_open_as_long_as_w_is_zero(self):
         self.write("run.csv", recording([(1, 2), (1, 2), (1, 2)]))
         found = self.algest_json("replay", "points.toml", "run.csv")
         self.assertEqual(found["status"]["ok"], 0)
         self.assertGreater(found["status"]["singular"], 0)
+        missing = "not identifiable from these data: needs a second value of x, w, y, the same at all of 3 operating points"
+        self.assertEqual(found["missing"], [missing])
         _, err = self.algest("replay", "points.toml", "run.csv")
-        self.assertIn("not identifiable from these data: needs a second value of x, w, y, the same at all of 3 operating points", err)
+        self.assertIn(missing, err)
 
     def test_nothing_steady(self):
         rows = ["t [s],x [V],w [V],y [V^2]"] + [f"{k / 100:.2f},{k / 100!r},1,1" for k in range(60)]

@@ -88,6 +88,12 @@ class Formats(CommandLine):
         self.write("bare.mat", mat(vector("t", T), vector("u", U), vector("i", I)))
         self.assertEqual(self.parameters("bare.mat"), self.parameters("coil.csv"))
 
+    def test_a_unit_shorter_than_its_file_promises_is_none(self):
+        # 300 characters, of which there are three: reading on would be reading what is not there (found by fuzzing)
+        promised = units(u="mmV").replace(struct.pack("<ii", 1, 3), struct.pack("<ii", 1, 300))
+        self.write("short.mat", mat(vector("t", T), vector("u", U), vector("i", I), promised))
+        self.assertEqual(self.parameters("short.mat"), self.parameters("coil.csv"))
+
     def test_matlab_files_at_fault(self):
         uneven = T[:50] + [t + 0.01 for t in T[50:]]
         nan = I[:7] + [float("nan")] + I[8:]

@@ -9,7 +9,7 @@ import unittest
 
 from environment import ALGEST, CXX, SOURCE
 
-PAGES = [SOURCE / "README.md"] + sorted((SOURCE / "docs").glob("*.md"))
+PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", SOURCE / "CHANGELOG.md"] + sorted((SOURCE / "docs").glob("*.md"))
 # `make test` is what runs this test; a clean root runs both (tests/clean_root/prove).
 INSTEAD = {"make demo": "bash examples/demo/run build/algest", "make test": "true"}
 

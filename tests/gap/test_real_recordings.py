@@ -161,6 +161,39 @@ class RealRecordings(unittest.TestCase):
         self.assertLess(output["nrmse_after"], output["nrmse_before"])
         self.assertTrue(any("Ncog" in d for d in found["doubts"]), found["doubts"])
 
+    def named_first(self, title, model, recording, effect):
+        """One recording of a machine whose model lacks one thing; no noise is declared, so what else is missing is a doubt."""
+        found = discover(MODELS / model, RECORDINGS / recording, self.folder / "found")
+        show(title, found)
+        self.assertEqual((found["verdict"], names(found)), ("named", [effect]))
+        self.assertTrue(any("declares no noise" in d for d in found["doubts"]), found["doubts"])
+        (output,) = found["outputs"]
+        return found, output
+
+    def test_dead_time_of_a_hair_dryer(self):
+        """Known: about two samples. Beside one lag a part of the second lag is taken for dead time, less than a sample."""
+        found, output = self.named_first("hair dryer, one lag, no dead time", "hair_dryer.toml", "hair_dryer.csv", "input_delay")
+        self.assertGreater(values(found)["dead_time"], 1.5 * 0.08)
+        self.assertLess(values(found)["dead_time"], 3.5 * 0.08)
+        self.assertLess(output["nrmse_after"], 0.5 * output["nrmse_before"])
+
+    def test_speed_sensor_that_loses_the_sign(self):
+        found, output = self.named_first("coupled drives, a sensor with sign", "coupled_drives.toml", "coupled_drives.csv", "absolute_value_sensor")
+        self.assertLess(output["nrmse_after"], 0.4)                               # R^2 above 0.84
+        self.assertGreater(output["nrmse_before"], 1)                             # worse than no model
+
+    def test_dry_friction_of_a_damper(self):
+        """Its model gives the force that a sensor shows; nothing moves. Least squares on the whole file: R^2 0.89 viscous, 0.98 with dry friction."""
+        found, output = self.named_first("damper, viscous only", "mr_damper.toml", "mr_damper.csv", "coulomb_friction")
+        source = RECORDINGS / "mr_damper.csv"
+        v, force = column(source, "velocity_diff"), column(source, "force")
+        size = rms([f - sum(force) / len(force) for f in force])
+        (_, dry, _), left = least_squares([v, [sign(x) for x in v], [1.0] * len(v)], force)
+        print(f"   least squares: dry friction {dry:.1f} N, R^2 {1 - (left / size) ** 2:.4f}; discover on the test stretch: {1 - output['nrmse_after'] ** 2:.4f}, before {1 - output['nrmse_before'] ** 2:.4f}")
+        self.assertLess(abs(values(found)["Tc"] / dry - 1), 0.1)
+        self.assertAlmostEqual(1 - output["nrmse_before"] ** 2, 0.89, delta=0.02)
+        self.assertGreater(1 - output["nrmse_after"] ** 2, 0.96)                  # of the test stretch; hysteresis is left
+
 
 def lag(x, period, tau):
     """First-order lag of a held input, exact from sample to sample, from zero."""

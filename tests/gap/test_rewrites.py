@@ -101,6 +101,38 @@ class Rewrites(unittest.TestCase):
         self.at_the_floor(found)
         self.assertIn('ode = "L*der(i) = delay(u, dead_time) - R*i - K*w"   # copper, back EMF\n', amended)
 
+    def test_a_sensor_without_sign_on_a_second_derivative(self):
+        text = PUSHED.replace("m*der(x,2) = k*(r - x) - c*der(x)", "m*der(x,2) = k*r - k*x - c*der(x)")
+        dice = random.Random(7)
+        recording = run(lambda s, r: [s[1], 400.0 * (r - s[0]) - 4.0 * s[1]], [0.0, 0.0], lambda k: dice.uniform(-0.02, 0.02) if k % 150 == 0 else None,
+                        lambda s: (abs(s[0] + dice.gauss(0, 2e-5)),), "t [s],r [m],x [m]", 4000)
+        found, _ = self.discover(text, recording)
+        self.assertEqual((found["verdict"], names(found)), ("named", ["absolute_value_sensor"]))
+        self.assertLess(found["outputs"][0]["nrmse_after"], 0.05)
+
+    def test_friction_in_a_force_that_a_sensor_shows(self):
+        dice = random.Random(9)
+        rows = ["t [s],v [m/s],F [N]"]
+        v = 0.0
+        for k in range(2000):
+            v += 0.05 * (dice.uniform(-1, 1) - v)
+            rows.append(f"{k * 1e-2:.9g},{v:.9g},{30 * v + (2.0 if v > 0 else -2.0) + dice.gauss(0, 0.05):.9g}")
+        text = """name = "damper"
+[sampling]
+period = 1e-2
+[signals]
+v = { unit = "m/s" }
+F = { unit = "N", noise = 0.05 }
+[parameters]
+c = { unit = "N.s/m", initial = 10, min = 0 }
+[[equation]]
+name = "force"
+ode = "F = c*v"
+"""
+        found, _ = self.discover(text, "\n".join(rows) + "\n")
+        self.assertEqual((found["verdict"], names(found)), ("named", ["coulomb_friction"]))
+        self.assertLess(abs(values(found)["Tc"] / 2 - 1), 0.02)   # 2000 samples of 0.05 N noise: far below
+
     def test_a_wrong_constant_and_a_wrong_sensor_are_the_same_without_an_angle(self):
         wrong = MOTOR.format(name="m").replace("K = { value = 0.05,", "K = { value = 0.052,")
         for kind, library in (("transform_signal", "sensor_gain"), ("free_constant", "parameter_error")):

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from environment import SOURCE, run
+from environment import ALGEST, SOURCE, run
 from generated_headers import COMPILERS, FLAGS, MODELS, WARNINGS, class_name, float_headers, folders, in_parallel, of, output
 
 PROGRAM = SOURCE / "tests/generated/programs/every_member.cpp"
@@ -68,6 +68,23 @@ class Compile(unittest.TestCase):
         run("g++", *FLAGS, "-c", source, "-o", self.folder / "allocates.o")
         self.assertIn("_Znwm", run("nm", "--undefined-only", self.folder / "allocates.o"))
         self.assertNotIn("_Znwm", ALLOWED)
+
+    def test_tables_of_moments_take_what_is_stated(self):
+        model = (SOURCE / "models/rl_circuit.toml").read_text()
+        moments = "coefficients, ends, degrees"
+        for name, text, options, arrays in (("wide", model, ["--scalar", "double"], moments),
+                                            ("single", model, ["--scalar", "float"], moments),
+                                            ("grown", model.replace("\nwindow", "\ngrowing = true\nwindow"), [], moments + ", growing, growing_newest, derivatives")):
+            with self.subTest(tables=name):
+                folder = self.folder / name
+                folder.mkdir()
+                (folder / "rl_circuit.toml").write_text(text)
+                run(ALGEST, "generate", folder / "rl_circuit.toml", "--engine", "moments", "-o", folder, *options)
+                [stated] = re.findall(r"(\d+) bytes of tables", (folder / "rl_circuit/rl_circuit.hpp").read_text())
+                sizes = " + ".join(f"sizeof algest::generated::rl_circuit_tables::{array}" for array in arrays.split(", "))
+                source = folder / "sizes.cpp"
+                source.write_text(f'#include "rl_circuit/rl_circuit_tables.hpp"\nstatic_assert({sizes} == {stated}, "");\n')
+                run("g++", *FLAGS, f"-I{folder}", "-fsyntax-only", source)
 
     def test_scalars_are_what_they_should_be(self):
         for scalar, folder in self.folders.items():

@@ -58,11 +58,11 @@ std::string with(const std::string& bound, double value) {
 }  // namespace
 
 TEST_CASE("a parameter's min goes into the amended model by its value, and its start does not lie below") {
-    CHECK(with("", -2.5) == "b = { initial = -2.5, unit = \"N/(m/s)\"");
-    CHECK(with("min = 0", -2.5) == "b = { initial = 0, unit = \"N/(m/s)\", min = 0");
-    CHECK(with("min = 0", 2.5) == "b = { initial = 2.5, unit = \"N/(m/s)\", min = 0");
-    CHECK(with("min = 0.125", 0) == "b = { initial = 0.125, unit = \"N/(m/s)\", min = 0.125");
-    CHECK(with("min = -3", -2.5) == "b = { initial = -2.5, unit = \"N/(m/s)\", min = -3");
+    CHECK(with("", -2.5) == "b = { initial = -2.5, unit = \"N.s/m\"");
+    CHECK(with("min = 0", -2.5) == "b = { initial = 0, unit = \"N.s/m\", min = 0");
+    CHECK(with("min = 0", 2.5) == "b = { initial = 2.5, unit = \"N.s/m\", min = 0");
+    CHECK(with("min = 0.125", 0) == "b = { initial = 0.125, unit = \"N.s/m\", min = 0.125");
+    CHECK(with("min = -3", -2.5) == "b = { initial = -2.5, unit = \"N.s/m\", min = -3");
     // Six digits of 1.2345644 are less than it.
-    CHECK(with("min = 1.2345644", 1.23456445) == "b = { initial = 1.2345644, unit = \"N/(m/s)\", min = 1.2345644");
+    CHECK(with("min = 1.2345644", 1.23456445) == "b = { initial = 1.2345644, unit = \"N.s/m\", min = 1.2345644");
 }

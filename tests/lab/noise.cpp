@@ -2,10 +2,13 @@
 // The yardstick of a gap: what is declared, else the roughness of the signal.
 #include "lab/noise.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "lab/recording_doubts.hpp"
 #include "tests/lab/scene.hpp"
+#include "tests/lab/workplace.hpp"
 
 using namespace algest;
 using algest::test::Scene;
@@ -51,4 +54,14 @@ ode = "der(c) = p*u"
     CHECK(noise[2] == Approx(std::sqrt(0.09 + 1.44 / 12)));            // uniform over a step
     CHECK(noise[3] == Approx(8 / std::sqrt(20.0)));                    // rough: third differences of +-1 are +-8
     CHECK_FALSE(lab::declares_noise(*scene.model.signal("c")));
+}
+
+TEST_CASE("noise: what is declared far above the roughness of a signal is doubted, for effects hide below it") {
+    const auto nothing = [](std::size_t, double) { return 0.0; };
+    const auto said = [](const test::Workplace& w) {
+        const auto doubts = lab::recording_doubts(w.nominal->model, w.nominal->bench);
+        return std::any_of(doubts.begin(), doubts.end(), [](const std::string& d) { return d.find("times smoother than the noise that it declares") != std::string::npos; });
+    };
+    CHECK(said(test::Workplace(nothing, 1e-3, "noise = 1e-2, initial = 0")));
+    CHECK_FALSE(said(test::Workplace(nothing, 1e-3)));
 }

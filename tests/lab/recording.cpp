@@ -126,7 +126,7 @@ TEST_CASE("what is wrong with a recording is told with line and column") {
         {head + "4,,2\n", 6, 3, "a value is missing"},
         {head + "4, ,2\n", 6, 4, "a value is missing"},
         {head + "4,   \xC3\xA9,2\n", 6, 6, "is not a number"},
-        {head + "4,\x89,2\n", 6, 3, "'?' is not a number"},
+        {head + "4,\x89,2\n", 6, 3, "no UTF-8"},
         {head + "4,1\n", 6, 4, "the row has 2 fields"},
         {head + "4,1,2,\n", 6, 7, "the row has 4 fields"},
         {head + "4;1;2\n", 6, 6, "the row has 1 fields"},

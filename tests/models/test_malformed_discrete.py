@@ -44,7 +44,6 @@ REFUSED = [
     ('[estimator]\nfunctional = "discrete"', "▸[estimator]", ["functional = \"discrete\""]),
     ('functional = "discrete"', 'functional = "discrete"\nsolve = "robust"', ["no S(t)"]),
     ('functional = "discrete"', 'functional = "discrete"\nuncertainty = true', ["uncertainty"]),
-    ('functional = "discrete"', 'functional = "discrete"\nengine = ▸"moments"', ["windows of the annihilator", "engine fir"]),
     ("window = 1\n", "window = 1\ngrowing = ▸true\n", ["annihilator"]),
     ("window = 1\n", "window = ▸0.05\n", ["too short", "0.09 s"]),
     ('u = { unit = "V" }\n', 'u = { unit = "V" }\na1 = { unit = "V" }\n', ["unknown of [discrete]", "'a1'"]),

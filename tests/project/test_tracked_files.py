@@ -10,7 +10,7 @@ if subprocess.run(["git", "-C", SOURCE, "rev-parse"], capture_output=True).retur
 
 HOST, RUNTIME, EMITTED = "GPL-3.0-or-later", "MIT-0", "0BSD"
 LICENCE = {"generator": HOST, "lab": HOST, "cli": HOST, "runtime": RUNTIME, "templates": EMITTED, "generated": EMITTED}
-WITHOUT_COMMENTS = (".csv", ".json", ".md", ".svg", ".png", "LICENSE")
+WITHOUT_COMMENTS = (".csv", ".json", ".md", ".svg", ".png", ".seed", "LICENSE")
 
 
 class TrackedFiles(unittest.TestCase):

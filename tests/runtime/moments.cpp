@@ -72,8 +72,8 @@ TEST_CASE("moments of single-precision samples, summed in two floats or in doubl
         const double twofold = error_of<float, Twofold<float>>(6, 2000, rule, 40, 181);
         const double wide = error_of<float, double>(6, 2000, rule, 40, 181);
         fmt::print("moments, float, d = 6, M = 2000: two floats {:.1e}, double {:.1e}\n", twofold, wide);
-        CHECK(twofold < 5e-6);
-        CHECK(wide < 5e-6);
+        CHECK(twofold < 2e-6);   // ten times what docs/engines.md states, here and below
+        CHECK(wide < 2e-6);
     }
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("an offset of 1000 times the signal costs no digits of what a derivati
     for (const double offset : {1000.0, -1000.0}) {
         const double error = error_of<double, double>(6, 2000, linear, 40, 181, offset);
         fmt::print("moments, double, offset {}: {:.1e}\n", offset, error);
-        CHECK(error < 1e-7);
+        CHECK(error < 3.3e-13);
     }
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("moments do not drift in a million samples, the textbook recursion doe
     Comparison<double> comparison(kernels, intervals, linear);
     comparison.look(window);
     fmt::print("moments, double, d = 6, M = 2000, after 1e6 samples: {:.1e}\n", comparison.worst());
-    CHECK(comparison.worst() < 1e-11);
+    CHECK(comparison.worst() < 3e-13);
 
     long double exact = 0.0L;   // of the highest power
     for (int m = 0; m <= intervals; ++m) exact += std::pow((2.0L * m - intervals) / intervals, degree) * static_cast<long double>(window.sample(static_cast<std::size_t>(m)));

@@ -100,7 +100,10 @@ inline void dot_sizes(const S* const* weights, const S* samples, int count, S* s
     for (; k + width <= count; k += stride) {
         const Lanes x = *reinterpret_cast<const Unaligned*>(samples + k);
 #pragma GCC unroll 8
-        for (int t = 0; t < tables; ++t) lanes[t] += detail::Neighbours<S>::absolute(*reinterpret_cast<const Unaligned*>(weights[t] + k) * x);
+        for (int t = 0; t < tables; ++t) {
+            const Lanes product = *reinterpret_cast<const Unaligned*>(weights[t] + k) * x;
+            lanes[t] += detail::Neighbours<S>::absolute(product);
+        }
     }
 #pragma GCC unroll 8
     for (int t = 0; t < tables; ++t) {

@@ -91,8 +91,11 @@ struct CandidateList {
 
 namespace detail {
 
+/// Newton's method doubles the digits with every step: four bring the two digits of kept_within to sixteen; the others are for a root that the
+/// resultant's rounding hid, farther away, and for a double root, which wins one bit a step.
 constexpr int newton_steps = 12;
-/// What the rounding of a resultant moves a root, at most.
+/// What the rounding of a resultant moves a root, at most. A double root moves by 1e-8 where the coefficients are good to epsilon of double; those of a
+/// resultant are sums of products that cancel, and lose up to twelve digits of them before a root moves farther than this.
 constexpr double kept_within = 1e-2;
 
 constexpr int larger_of(int a, int b) noexcept { return a > b ? a : b; }
@@ -212,12 +215,9 @@ inline bool polish(const EliminationStage& s, const S* rows, S& x, S& y, S& erro
     }
     error = at.error;
     const S rounding = std::sqrt(std::numeric_limits<S>::epsilon());
-    return std::isfinite(x) && std::isfinite(y) && std::isfinite(error) && std::abs(at.x) <= rounding * at.size_x && std::abs(at.y) <= rounding * at.size_y;
-}
-
-template <class S>
-inline bool close(S a, S b, S within) noexcept {
-    return std::abs(a - b) <= within * (S(1) + std::abs(b));
+    const S most_x = rounding * at.size_x;
+    const S most_y = rounding * at.size_y;
+    return std::isfinite(x) && std::isfinite(y) && std::isfinite(error) && std::abs(at.x) <= most_x && std::abs(at.y) <= most_y;
 }
 
 /// Lists a candidate unless one like it stands there; marks the former best where this one replaces it.
@@ -254,7 +254,7 @@ struct BestPoint {
 template <class S>
 inline void improve(BestPoint<S>& best, S x, S y, S error) noexcept {
     const S same = std::sqrt(std::numeric_limits<S>::epsilon());
-    const bool other = !best.found || !close(x, best.x, same) || !close(y, best.y, same);
+    const bool other = !close(x, best.x, same) || !close(y, best.y, same);
     const bool better = !best.found || error < best.error;
     if (other && best.found) best.next = smaller(best.next, better ? best.error : error);
     if (better) {
@@ -265,12 +265,15 @@ inline void improve(BestPoint<S>& best, S x, S y, S error) noexcept {
     }
 }
 
-/// True when the rows fit two points equally well, to what rounding leaves of the known side.
+/// True when the rows fit two points equally well. The error is a sum of squares, and rounding moves its root, the length of the residuals, by a part
+/// of that of the known side: each residual is summed of the summands times the triangle (two roundings each) and by Horner's rule (two a degree),
+/// of epsilon/2 each; times 2 for the two points, and 8 for terms that are larger than the known side since they cancel.
 template <class S>
 inline bool is_tie(const EliminationStage& s, const S* rows, const BestPoint<S>& best) noexcept {
     S known = S(0);
     for (int r = s.alone; r < s.columns; ++r) known += rows[r * plane_size(degrees_of(s))] * rows[r * plane_size(degrees_of(s))];
-    return best.next - best.error <= S(100) * std::numeric_limits<S>::epsilon() * known;
+    const S rounding = S(8 * 2 * (s.summands + s.degree_x + s.degree_y)) * std::numeric_limits<S>::epsilon();
+    return std::sqrt(best.next) - std::sqrt(best.error) <= rounding * std::sqrt(known);
 }
 
 /// One stage while its candidates are tried.
@@ -287,16 +290,19 @@ struct Trial {
     BestPoint<S> best;
 };
 
-/// Tries a pair of roots: what it is, and where Newton's method takes it, which may be a root that the resultant's rounding hid.
+/// Tries a pair of roots: what it is, and where Newton's method takes it, which may be a root that the resultant's rounding hid. A place without
+/// a pair (there == false) is computed like the others, and changes nothing.
 template <class S>
-inline void try_pair(Trial<S>& t, S x, S y) noexcept {
+inline void try_pair(Trial<S>& t, S x, S y, bool there) noexcept {
     S at_x = x;
     S at_y = y;
     S error = S(0);
-    const bool common = polish(t.s, t.rows, at_x, at_y, error) && alone_at(t.e, t.s, t.triangle, t.width, t.rows, at_x, at_y, t.alone);
-    if (!common || !close(at_x, x, S(kept_within)) || !close(at_y, y, S(kept_within))) {
-        const S there = error_slopes(t.rows + t.s.alone * plane_size(degrees_of(t.s)), t.s.columns - t.s.alone, degrees_of(t.s), x, y).error;
-        list(t.candidates, Candidate<S>{t.stage, x, y, there, Standing::spurious});
+    const bool satisfied = polish(t.s, t.rows, at_x, at_y, error);
+    const bool common = alone_at(t.e, t.s, t.triangle, t.width, t.rows, at_x, at_y, t.alone) && satisfied;
+    if (!there) return;
+    if (t.candidates != nullptr && (!common || !close(at_x, x, S(kept_within)) || !close(at_y, y, S(kept_within)))) {
+        const S error_there = error_slopes(t.rows + t.s.alone * plane_size(degrees_of(t.s)), t.s.columns - t.s.alone, degrees_of(t.s), x, y).error;
+        list(t.candidates, Candidate<S>{t.stage, x, y, error_there, Standing::spurious});
     }
     if (!common) return;
     if (!real_at(t.e, t.s, at_x, at_y, t.alone)) return list(t.candidates, Candidate<S>{t.stage, at_x, at_y, error, Standing::unreal});
@@ -305,7 +311,7 @@ inline void try_pair(Trial<S>& t, S x, S y) noexcept {
     list(t.candidates, Candidate<S>{t.stage, at_x, at_y, error, better ? Standing::best : Standing::extremum});
 }
 
-/// Tries every real root y of the resultant with every real root x of the first extremum equation there.
+/// Tries every real root y of the resultant with every real root x of the first extremum equation there; as many places as there can be roots.
 template <class S>
 inline void try_all(Trial<S>& t, S* work) noexcept {
     const EliminationStage& s = t.s;
@@ -323,9 +329,8 @@ inline void try_all(Trial<S>& t, S* work) noexcept {
     polynomial_in_y(t.e, s, by_x, by_y, product, spare, in_y);
     real_roots(in_y, degree, real_y + root_places(degree), y, real_y);
     for (int k = 0; k < root_places(degree); ++k) {
-        if (!(real_y[k] > S(0))) continue;
         if (s.x == no_parameter) {
-            try_pair(t, S(0), y[k]);
+            try_pair(t, S(0), y[k], real_y[k] > S(0));
             continue;
         }
         const int degree_x = s.degree_of_first;
@@ -334,7 +339,7 @@ inline void try_all(Trial<S>& t, S* work) noexcept {
         for (int i = 0; i <= degree_x; ++i) in_x[i] = polynomial_value(by_x + i * width, width - 1, y[k]);
         real_roots(in_x, degree_x, real_x + root_places(degree_x), x, real_x);
         for (int i = 0; i < root_places(degree_x); ++i) {
-            if (real_x[i] > S(0)) try_pair(t, x[i], y[k]);
+            try_pair(t, x[i], y[k], real_y[k] > S(0) && real_x[i] > S(0));
         }
     }
 }
@@ -376,12 +381,40 @@ inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triang
     residual_polynomials(e, s, triangle, width, parameters, values, rows);
     Trial<S> t = {e, s, stage, triangle, width, rows, alone, candidates, {s.y == no_parameter, S(0), S(0), S(0), std::numeric_limits<S>::infinity()}};
     if (s.y != no_parameter) try_all(t, work);
-    if (s.y != no_parameter && is_tie(s, rows, t.best)) return singular;
-    if (!t.best.found || !alone_at(e, s, triangle, width, rows, t.best.x, t.best.y, alone) || !real_at(e, s, t.best.x, t.best.y, alone)) return singular;
+    const bool tie = s.y != no_parameter && is_tie(s, rows, t.best);
+    const bool finite = alone_at(e, s, triangle, width, rows, t.best.x, t.best.y, alone);
+    const bool answer = t.best.found && !tie && finite && real_at(e, s, t.best.x, t.best.y, alone);
     for (int i = 0; i < s.alone; ++i) parameters[e.alone[s.first_alone + i].parameter] = e.alone[s.first_alone + i].squared != 0 ? S(std::sqrt(alone[i])) : alone[i];
     if (s.x != no_parameter) parameters[s.x] = (s.squares & 1U) != 0U ? S(std::sqrt(t.best.x)) : t.best.x;
     if (s.y != no_parameter) parameters[s.y] = (s.squares & 2U) != 0U ? S(std::sqrt(t.best.y)) : t.best.y;
-    return condition_at(t, t.best.x, t.best.y, work);
+    const Solved<S> solved = condition_at(t, t.best.x, t.best.y, work);
+    return answer ? solved : singular;
+}
+
+/// Multiply-adds and divisions of solve_stage, at most; products by zero are counted.
+template <class S>
+constexpr long stage_cost(const Elimination<S>& e, int stage) noexcept {
+    const EliminationStage& s = e.stages[stage];
+    const PlaneDegrees degrees = degrees_of(s);
+    const int n = unknowns_of(s);
+    long rows = 0;
+    for (int k = 0; k < s.summands; ++k) {
+        for (int p = 0; p < e.parameters; ++p) rows += p != s.x && p != s.y ? e.exponents[(s.first_summand + k) * e.parameters + p] : 0;
+        rows += e.column_of[s.first_summand + k] + 1;
+    }
+    const long alone = s.alone * (plane_value_cost(degrees) + 2) + s.alone * (s.alone - 1L);
+    const long tried = (newton_steps + 1) * error_slopes_cost(s.columns - s.alone, degrees) + newton_steps * 8L + 2 + alone + 2;   // the last two: improve
+    const long condition = s.columns * plane_slopes_cost(degrees) + s.alone * (s.alone + 1L) / 2 + add_rows_cost(s.columns, n) + solve_triangle_cost(n);
+    if (s.y == no_parameter) return rows + alone + condition;
+
+    const int degree = degree_in_y(s);
+    const int width = 2 * s.degree_y + 1;
+    long product = 0;   // of polynomials in y
+    for (int k = 0; k <= degree; ++k) product += k < width ? k + 1 : width;
+    const long equations = (s.columns - s.alone) * product_with_slopes_cost(degrees) + 2L * (2 * s.degree_x + 1) * width + s.terms * (s.factors * product);
+    const long for_x = s.x == no_parameter ? tried : (s.degree_of_first + 1L) * (width - 1) + real_roots_cost<S>(s.degree_of_first) + root_places(s.degree_of_first) * tried;
+    const long tie = (s.columns - s.alone) + 2;
+    return rows + equations + real_roots_cost<S>(degree) + root_places(degree) * for_x + tie + alone + condition;
 }
 
 }  // namespace detail
@@ -394,22 +427,30 @@ constexpr int elimination_scratch(const Elimination<S>& e) noexcept {
     return most;
 }
 
+/// Multiply-adds and divisions of eliminate without a list of candidates, at most: a solve that finds a stage singular early costs a few less.
+template <class S>
+constexpr long elimination_cost(const Elimination<S>& e) noexcept {
+    long out = e.parameters;
+    for (int s = 0; s < e.stages.size; ++s) out += detail::stage_cost(e, s);
+    return out;
+}
+
 /// The parameters with the smallest sum of squares ||R u(theta) - z||^2, u the columns as polynomials; stage after stage. triangle: [R|z] packed, of
 /// `columns` columns. solution: e.parameters entries, in their units. Condition: the worst of the stages'. On `regular == false`, which degenerate data
-/// give, and data that fit no real parameters or two sets of them equally well, the solution is of no use. candidates: nullptr, or where they are listed.
-/// Cost: fixed loops over all places for roots; bisection dominates: about (D^3 + 2 D d^3)(digits + 11)/3 multiply-adds for a resultant of degree D
-/// and a first extremum equation of degree d in x. Never fails, no allocation.
+/// give, and data that fit no real parameters or two sets of them equally well, the solution is of no use. Limits of parameters do not count: the
+/// smallest error wins, wherever it lies. candidates: nullptr, or where those of the stages are listed, up to the first one without an answer.
+/// Cost: elimination_cost. All places for roots are computed, whatever the data: Newton's steps dominate, D d (newton_steps + 1) rows of about
+/// 8 plane_size multiply-adds for a resultant of degree D and a first extremum equation of degree d in x. Never fails, no allocation.
 template <class S>
 inline Solved<S> eliminate(const Elimination<S>& e, const S* triangle, int columns, S* scratch, S* solution, CandidateList<S>* candidates = nullptr) noexcept {
+    const Solved<S> singular = {false, std::numeric_limits<S>::infinity()};
     Solved<S> worst = {true, S(0)};
     for (int s = 0; s < e.stages.size; ++s) {
-        const Solved<S> solved = detail::solve_stage(e, s, triangle, columns + 1, scratch, solution, candidates);
-        if (!solved.regular) return solved;
-        worst.condition = larger(worst.condition, solved.condition);
+        const Solved<S> solved = detail::solve_stage(e, s, triangle, columns + 1, scratch, solution, worst.regular ? candidates : nullptr);
+        worst = worst.regular && solved.regular ? Solved<S>{true, larger(worst.condition, solved.condition)} : singular;
     }
     for (int p = 0; p < e.parameters; ++p) solution[p] *= e.sizes[p];
-    if (!all_finite(solution, e.parameters)) return {false, std::numeric_limits<S>::infinity()};
-    return worst;
+    return all_finite(solution, e.parameters) ? worst : singular;
 }
 
 }  // namespace algest

@@ -28,13 +28,6 @@ inline double horner(const double* coefficients, int count, double h) noexcept {
     return out;
 }
 
-/// The samples that the frame of a growing window holds when sample `newest` is in it: a power of two.
-inline int growing_frame(int newest) noexcept {
-    int size = 1;
-    while (size <= newest) size *= 2;
-    return size;
-}
-
 }  // namespace detail
 
 /// Takes one sample of every signal, after add_sample and before the window is full. Frame 0 starts with the same sample and measures from it.
@@ -44,11 +37,14 @@ inline void add_growing_sample(const MomentSet<S, double>& set, MomentMemory<S, 
     const int newest = static_cast<int>(memory.progress->position);
     const int signals = set.degrees.size;
     const int count = set.degree + 1;
-    const int size = detail::growing_frame(newest);
+    if (newest == 0) memory.progress->growing = 1;
+    const bool full = newest == memory.progress->growing;
+    if (full) memory.progress->growing *= 2;
+    const int size = static_cast<int>(memory.progress->growing);
     double* const moments = memory.accumulators + moment_frames<double> * signals * count;
     if (newest == 0) {
         for (int i = 0; i < signals * count; ++i) moments[i] = 0.0;
-    } else if (2 * newest == size) {   // the frame was full: u becomes (u - 1)/2
+    } else if (full) {   // u becomes (u - 1)/2
         for (int s = 0; s < signals; ++s) {
             detail::shift_moments(set.degree, S(-1), moments + s * count);
             double half = 1.0;
@@ -67,7 +63,7 @@ inline void evaluate_growing_rows(const GrowingSet& growing, const MomentSet<S, 
                                   double* scratch, RowSums<S> to) noexcept {
     const int newest = static_cast<int>(memory.progress->position);
     const int count = set.degree + 1;
-    const int size = detail::growing_frame(newest);
+    const int size = static_cast<int>(memory.progress->growing);
     const double* const moments = memory.accumulators + moment_frames<double> * rows.signals * count;
     const double h = 1.0 / newest;
     const double stretch = size * h;   // v is u, moved to the middle of the window, times this

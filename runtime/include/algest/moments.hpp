@@ -67,7 +67,7 @@ struct MomentSet {
 /// Where the frames stand.
 struct MomentProgress {
     std::int32_t position;   ///< of the newest sample, modulo the cycle of all frames
-    std::int32_t reserved;
+    std::int32_t growing;    ///< samples that the frame of a growing window holds: a power of two
 };
 
 /// Accumulators, and scalars of references (and as many sizes) and ring, of an instance; accumulators of scratch that push needs. A growing window has a frame

@@ -3,6 +3,8 @@
 #pragma once
 #include <cmath>
 
+#include "algest/polynomial_roots.hpp"
+
 namespace algest {
 
 /// Highest powers of x and of y.
@@ -22,7 +24,10 @@ struct PlaneSlopes {
     S size, size_x, size_y;
 };
 
-/// Cost: about 20 multiply-adds a coefficient.
+/// Multiply-adds of plane_slopes.
+constexpr long plane_slopes_cost(PlaneDegrees d) noexcept { return (d.x + 1L) * (5 * (d.y + 1L) + 9); }
+
+/// Cost: plane_slopes_cost.
 template <class S>
 inline PlaneSlopes<S> plane_slopes(const S* p, PlaneDegrees d, S x, S y) noexcept {
     PlaneSlopes<S> out = {};
@@ -51,9 +56,15 @@ inline PlaneSlopes<S> plane_slopes(const S* p, PlaneDegrees d, S x, S y) noexcep
     return out;
 }
 
+/// Multiply-adds of plane_value.
+constexpr long plane_value_cost(PlaneDegrees d) noexcept { return (d.x + 1L) * (d.y + 1L); }
+
+/// The value alone, by Horner's rule in x, its coefficients by Horner's rule in y. Cost: plane_value_cost.
 template <class S>
 inline S plane_value(const S* p, PlaneDegrees d, S x, S y) noexcept {
-    return plane_slopes(p, d, x, y).value;
+    S value = S(0);
+    for (int i = d.x; i >= 0; --i) value = value * x + polynomial_value(p + plane_index(d, i, 0), d.y, y);
+    return value;
 }
 
 /// The sum of squares of several polynomials, and half its derivatives; size_x and size_y: the sizes of the terms of x and y.
@@ -63,7 +74,10 @@ struct ErrorSlopes {
     S size_x, size_y;
 };
 
-/// rows: `count` polynomials, one after the other. Cost: that of plane_slopes for each.
+/// Multiply-adds of error_slopes.
+constexpr long error_slopes_cost(int count, PlaneDegrees d) noexcept { return count * (plane_slopes_cost(d) + 11); }
+
+/// rows: `count` polynomials, one after the other. Cost: error_slopes_cost.
 template <class S>
 inline ErrorSlopes<S> error_slopes(const S* rows, int count, PlaneDegrees d, S x, S y) noexcept {
     ErrorSlopes<S> out = {};
@@ -81,7 +95,13 @@ inline ErrorSlopes<S> error_slopes(const S* rows, int count, PlaneDegrees d, S x
     return out;
 }
 
-/// Adds p dp/dx to by_x and p dp/dy to by_y, both of twice the degrees. Cost: 4 plane_size(d)^2 operations.
+/// Multiply-adds of add_product_with_slopes.
+constexpr long product_with_slopes_cost(PlaneDegrees d) noexcept {
+    const long size = plane_size(d);
+    return size * (3 * size - (d.y + 1) - (d.x + 1));
+}
+
+/// Adds p dp/dx to by_x and p dp/dy to by_y, both of twice the degrees. Cost: product_with_slopes_cost.
 template <class S>
 inline void add_product_with_slopes(const S* p, PlaneDegrees d, S* by_x, S* by_y) noexcept {
     const PlaneDegrees twice = {2 * d.x, 2 * d.y};
@@ -98,13 +118,13 @@ inline void add_product_with_slopes(const S* p, PlaneDegrees d, S* by_x, S* by_y
     }
 }
 
-/// Divides by the largest coefficient; leaves zeros and what is not finite as it is.
+/// Divides by the largest coefficient; leaves zeros and what is not finite as it is. Cost: size divisions.
 template <class S>
 inline void scale_to_one(S* p, int size) noexcept {
     S largest = S(0);
     for (int k = 0; k < size; ++k) largest = std::abs(p[k]) > largest ? S(std::abs(p[k])) : largest;
-    if (!(largest > S(0)) || !std::isfinite(largest)) return;
-    for (int k = 0; k < size; ++k) p[k] /= largest;
+    const S divisor = largest > S(0) && std::isfinite(largest) ? largest : S(1);
+    for (int k = 0; k < size; ++k) p[k] /= divisor;
 }
 
 }  // namespace algest

@@ -13,9 +13,12 @@ namespace algest {
 /// Scalars that the triangle of `unknowns` unknowns takes: the packed triangle of [R|z] and the root of the residual sum.
 constexpr int triangle_scalars(int unknowns) noexcept { return packed_size(unknowns + 1); }
 
+/// Multiply-adds and divisions of add_rows that keeps every row.
+constexpr long add_rows_cost(int rows, int unknowns) noexcept { return rows * (7L * (unknowns + 1) + 2L * unknowns * (unknowns + 1)); }
+
 /// Rotates one instant's rows (rows x (unknowns+1), destroyed) into the triangle. `keep` multiplies the old triangle
 /// first: 1 keeps every row for good, sqrt(lambda) forgets with factor lambda an instant.
-/// Cost: about 3 rows (unknowns+1)^2 operations and rows (unknowns+1) square roots. The rows must be finite. Never fails.
+/// Cost: add_rows_cost and rows (unknowns+1) square roots. The rows must be finite. Never fails.
 template <class S>
 inline void add_rows(S* triangle, S* matrix, int rows, int unknowns, S keep) noexcept {
     const int width = unknowns + 1;
@@ -47,8 +50,14 @@ inline void add_rows(S* triangle, S* matrix, int rows, int unknowns, S keep) noe
 /// Scalars of scratch that solve_triangle needs.
 constexpr int solve_triangle_scratch(int unknowns) noexcept { return unknowns * (unknowns + 1) + 3 * unknowns; }
 
+/// Multiply-adds and divisions of solve_triangle.
+constexpr long solve_triangle_cost(int unknowns) noexcept {
+    const long n = unknowns;
+    return n * (n + 1) + condition_of_upper_cost(unknowns) + n * (n + 1) / 2 + 2 * n;
+}
+
 /// Solves R theta = z after scaling the columns of R to norm 1. Rank test: a diagonal entry at or below
-/// unknowns * epsilon. On `regular == false` the solution is untouched. Cost: unknowns^3 / 3 operations.
+/// unknowns * epsilon. On `regular == false` the solution is untouched. Cost: solve_triangle_cost.
 template <class S>
 inline Solved<S> solve_triangle(const S* triangle, int unknowns, S* scratch, S* solution) noexcept {
     const int n = unknowns;
