@@ -79,7 +79,7 @@ struct DesignOptions {
     bool json = false;
 };
 /// Tries windows, kappa and rows on the recording and recommends. 1: the accuracy is out of reach, or nothing is determined. JSON: {"model", "recording",
-/// "reference": {"free_run", "parameters": [{"name", "unit", "value"}]}, "accuracy", "reached", "recommended": TRIAL, "curve": [TRIAL], "others": [TRIAL],
+/// "reference": {"free_run", "parameters": [{"name", "unit", "value", "counts"}]}, "accuracy", "reached", "recommended": TRIAL, "curve": [TRIAL], "others": [TRIAL],
 /// "missing": [text]}, TRIAL {"window_s", "kappa": [by equation], "rows": [[p]], "engine", "multiply_adds", "ok", "noise", "perturbation", "error",
 /// "parameters": [{"name", "mean", "scatter"}]}.
 int design(const DesignOptions& options);

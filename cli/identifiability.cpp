@@ -26,7 +26,8 @@ std::string remark(const Judged& judged, const Structure& structure) {
     if (judged.verdict == Verdict::locally) return judged.values ? fmt::format("{} values fit", *judged.values) : "finitely many values fit; how many was not found out";
     std::vector<std::string> names;
     for (const int c : judged.seen_in) names.push_back(structure.combinations[static_cast<std::size_t>(c)].name);
-    return names.empty() ? "the measured signals say nothing of it" : "seen only in " + list(names);
+    if (!judged.seen) return "the measured signals say nothing of it";
+    return names.empty() ? "seen only together with others" : "seen only in " + list(names);
 }
 
 ordered_json judged_json(const Judged& judged) {

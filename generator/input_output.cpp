@@ -62,7 +62,7 @@ private:
 
     /// The lowest order in which the signal stands anywhere: what is below nobody sees.
     int lowest(int signal) const {
-        int out = 1000;
+        int out = 1000;   // above every order: it stands nowhere
         for (const Explicit& e : equations_) {
             const auto these = orders(e.right, signal, symbols_);
             if (!these.empty()) out = std::min(out, these.front());
@@ -192,7 +192,7 @@ private:
         else take(factored);
         return found.size() == 1 ? std::optional(found[0].expand()) : std::nullopt;
     }
-    static constexpr double most_terms_to_factor = 500;
+    static constexpr double most_terms_to_factor = 500;   // GiNaC takes seconds beyond
 
     ex substituted(const ex& e, const GiNaC::exmap& by) {
         if (terms_at_most(e) > most_terms) throw TooLong{};

@@ -110,6 +110,12 @@ public:
         return row;
     }
 
+    /// False: the column is zero in all of the space.
+    bool touches(std::size_t column) const {
+        for (const auto& [pivot, row] : rows_) if (!row[column].is_zero()) return true;
+        return false;
+    }
+
     bool contains(const Vector& row) const { return pivot_of(rest(row)) == row.size(); }
 
     /// True if the row adds a dimension.

@@ -23,11 +23,11 @@ Number value_at(const Terms& p, const Vector& point);
 
 /// Buchberger's algorithm. Nullopt after `most_pairs` pairs: the equations are too hard for this.
 std::optional<std::vector<Terms>> groebner_basis(std::vector<Terms> equations);
-constexpr int most_pairs = 4000;
+constexpr int most_pairs = 4000;   ///< some seconds
 
 /// How many values variable k takes over all (complex) solutions: the degree of its minimal polynomial, made square-free. 0: there is no
 /// solution. Nullopt: infinitely many, or more than `most_values`.
 std::optional<int> values_of(std::size_t k, const std::vector<Terms>& basis, std::size_t variables);
-constexpr int most_values = 64;
+constexpr int most_values = 64;   ///< far above what a published model has; each takes one more elimination
 
 }  // namespace algest::modular

@@ -117,7 +117,7 @@ private:
         for (const ex& zero : triangle.implicit) add_rows_of(coefficients(zero, symbols_));
         for (std::size_t k = 0; k < parameters(); ++k) {
             const bool determined = sensitivity_.rows.contains(unit(k));
-            out_.parameters.push_back({model_.parameters[k].name, determined ? Verdict::locally : Verdict::no, std::nullopt});
+            out_.parameters.push_back({model_.parameters[k].name, determined ? Verdict::locally : Verdict::no, std::nullopt, sensitivity_.rows.touches(k)});
         }
         return true;
     }

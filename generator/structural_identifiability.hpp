@@ -23,6 +23,7 @@ struct Judged {
     std::string name;
     Verdict verdict;
     std::optional<int> values;   ///< how many values fit, complex ones counted; empty: not found out, or a continuum
+    bool seen = true;              ///< false: the measured signals do not change with it
     std::vector<int> seen_in = {};   ///< of a parameter that is not identifiable: combinations that hold it
 };
 

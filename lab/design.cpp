@@ -10,26 +10,25 @@
 #include "generator/planner.hpp"
 #include "lab/excitation.hpp"
 #include "lab/free_run_reference.hpp"
+#include "lab/median.hpp"
 #include "lab/replay.hpp"
 
 namespace algest::lab {
 
 namespace {
 
-constexpr double step = 1.5;             ///< from one window to the next
-constexpr double most_work = 4e9;        ///< multiply-adds of one replay
-constexpr double as_good = 1.1;          ///< errors within this factor of the least count as the same
-constexpr double worth_a_change = 0.8;   ///< of the error, what another kappa or more rows must reach
-constexpr double enough_ok = 0.5;        ///< of the best trial's share of ok samples
+constexpr double step = 1.5;             ///< from one window to the next: the error has a flat minimum, and ten windows cover a factor of forty
+constexpr int shortest = 6;              ///< intervals of the first window: seven samples, one more than the unknowns of the largest models; shorter ones are noise alone
+constexpr int ordinary = 16;             ///< intervals of a window that only shows what is wrong with a model, whatever its window
+constexpr double most_work = 4e9;        ///< multiply-adds of one replay: some seconds
+constexpr double as_good = 1.1;          ///< errors within this factor of the least count as the same: between two windows of a flat minimum
+constexpr double worth_a_change = 0.8;   ///< of the error, what another kappa or more rows must reach: less is the scatter from one recording to the next
+constexpr double enough_ok = 0.5;        ///< of the best trial's share of ok samples: a window that is silent half of the time is compared on other data
+constexpr double of_trials = 0.9;        ///< of the progress: the fit of the free run takes about as long as a tenth of the replays
 
 double rms(const std::vector<double>& of) {
     if (of.empty()) return 0;
     return std::sqrt(std::inner_product(of.begin(), of.end(), of.begin(), 0.0) / static_cast<double>(of.size()));
-}
-
-double median(std::vector<double> of) {
-    std::nth_element(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2), of.end());
-    return of[of.size() / 2];
 }
 
 class Designer {
@@ -46,8 +45,8 @@ public:
         }
         const std::vector<model::Model> all = variants();
         std::vector<std::vector<Trial>> families;
-        for (std::size_t v = 0; v < all.size(); ++v) families.push_back(family(all[v], lengths, 0.9 * static_cast<double>(v) / static_cast<double>(all.size()), 0.9 / static_cast<double>(all.size())));
-        tell(0.9);
+        for (std::size_t v = 0; v < all.size(); ++v) families.push_back(family(all[v], lengths, of_trials * static_cast<double>(v) / static_cast<double>(all.size()), of_trials / static_cast<double>(all.size())));
+        tell(of_trials);
         find_reference(families);
         for (std::size_t v = 0; v < families.size(); ++v) {
             for (Trial& t : families[v]) {
@@ -69,7 +68,7 @@ private:
             diagnostics_.error(model_.path, model_.sampling_at, "the model has no windows to design", "parameters, [sampling] period and functional = \"annihilator\"");
             return false;
         }
-        model::Model as_it_is = with_window(std::max(16, shortest()));
+        model::Model as_it_is = with_window(ordinary);
         if (model_.window) as_it_is = model_;
         const auto plan = plan_of(as_it_is, false, diagnostics_);   // says what is wrong with it, whatever the window
         if (!plan) return false;
@@ -84,15 +83,12 @@ private:
         return generator::plan_of(model, options, diagnostics);
     }
 
-    /// Intervals of the shortest window that is tried: rows of high order need more samples than unknowns.
-    int shortest() const { return 6; }
-
     /// In powers of `step`, as long as the first estimate comes in the first half of the recording; even ones, which every quadrature allows.
     std::vector<int> intervals() const {
         const double periods = static_cast<double>(recording_.samples()) / model_.decimate;
         const double pooled = model_.estimator.solve_window ? exact::nearest(*model_.estimator.solve_window / model_.window_period(), plan::Scalar::float64) : 0;
         std::vector<int> out;
-        for (double m = shortest(); m + pooled <= periods / 2 && m <= model::most_intervals && m * static_cast<double>(recording_.samples()) <= most_work; m *= step) {
+        for (double m = shortest; m + pooled <= periods / 2 && m <= model::most_intervals && m * static_cast<double>(recording_.samples()) <= most_work; m *= step) {
             out.push_back(2 * static_cast<int>(m / 2));
         }
         return out;
@@ -119,7 +115,7 @@ private:
             if (possible) out.push_back(other);
         }
         Diagnostics said_before;
-        const auto plan = plan_of(with_window(16), false, said_before);
+        const auto plan = plan_of(with_window(ordinary), false, said_before);
         if (!plan) return out;
         const auto rows = rows_of(*plan);
         model::Model more = model_;
@@ -184,21 +180,34 @@ private:
         for (std::size_t p = 0; p < family.front().mean.size(); ++p) {
             std::vector<double> means;
             for (const Trial& t : family) means.push_back(t.mean[p]);
-            out.push_back(median(means));
+            out.push_back(*median(means));
         }
         return out;
     }
 
-    /// How far its members typically are from their own consensus, scatter included.
-    static double disagreement(const std::vector<Trial>& family) {
+    /// By parameter: it differs from zero by more than the steadiest trial scatters.
+    static std::vector<bool> not_zero(const std::vector<double>& values, const std::vector<Trial>& family) {
+        std::vector<bool> out;
+        for (std::size_t p = 0; p < values.size(); ++p) {
+            const auto steadier = [p](const Trial& a, const Trial& b) { return a.scatter[p] < b.scatter[p]; };
+            out.push_back(std::abs(values[p]) > std::min_element(family.begin(), family.end(), steadier)->scatter[p]);
+        }
+        return out;
+    }
+
+    /// How far its members typically are from their own consensus, scatter included. A parameter that one family takes for zero counts for
+    /// none: there is nothing to divide by, and where it stands in for a perturbation it is steady and wrong.
+    static double disagreement(const std::vector<Trial>& family, const std::vector<bool>& counts) {
         const std::vector<double> middle = consensus(family);
         std::vector<double> out;
         for (const Trial& t : family) {
             std::vector<double> off;
-            for (std::size_t p = 0; p < middle.size(); ++p) off.push_back(std::hypot(t.scatter[p], t.mean[p] - middle[p]) / std::abs(middle[p]));
+            for (std::size_t p = 0; p < middle.size(); ++p) {
+                if (counts[p]) off.push_back(std::hypot(t.scatter[p], t.mean[p] - middle[p]) / std::abs(middle[p]));
+            }
             out.push_back(rms(off));
         }
-        return median(out);
+        return *median(out);
     }
 
     /// The free run's parameters where there are any, else the consensus of the family that agrees best: a perturbation that one kappa does
@@ -206,16 +215,18 @@ private:
     void find_reference(const std::vector<std::vector<Trial>>& families) {
         const auto fitted = free_run_reference(model_, recording_);
         out_.reference = {fitted.has_value(), fitted.value_or(std::vector<double>(model_.parameters.size())), std::vector<bool>(model_.parameters.size(), false)};
+        std::vector<bool> nowhere_zero(model_.parameters.size(), true);
+        for (const auto& family : families) {
+            const std::vector<bool> here = family.empty() ? nowhere_zero : not_zero(consensus(family), family);
+            for (std::size_t p = 0; p < here.size(); ++p) nowhere_zero[p] = nowhere_zero[p] && here[p];
+        }
         const std::vector<Trial>* united = nullptr;
         for (const auto& family : families) {
-            if (!family.empty() && (united == nullptr || disagreement(family) < disagreement(*united))) united = &family;
+            if (!family.empty() && (united == nullptr || disagreement(family, nowhere_zero) < disagreement(*united, nowhere_zero))) united = &family;
         }
         if (united == nullptr) return;
         if (!fitted) out_.reference.values = consensus(*united);
-        for (std::size_t p = 0; p < model_.parameters.size(); ++p) {
-            const auto steadier = [p](const Trial& a, const Trial& b) { return a.scatter[p] < b.scatter[p]; };
-            out_.reference.counts[p] = std::abs(out_.reference.values[p]) > std::min_element(united->begin(), united->end(), steadier)->scatter[p];
-        }
+        out_.reference.counts = not_zero(out_.reference.values, *united);
     }
 
     void judge(Trial& t) const {

@@ -14,9 +14,9 @@ namespace algest::lab {
 
 namespace {
 
-constexpr int rows_a_window = 8;
-constexpr int most_instants = 4000;
-constexpr double undetermined = 1e6;   ///< condition from which on a direction counts as not there
+constexpr int rows_a_window = 8;       ///< rows of overlapping windows say the same: an eighth of a window on they say something new
+constexpr int most_instants = 4000;    ///< of the whole recording: a rank needs no more, and the rows take well below a second
+constexpr double undetermined = 1e6;   ///< condition from which on a direction counts as not there: noise of one part in a million moves its value by all of it
 
 /// Parameters that are computed from an unknown.
 std::vector<std::string> followers(const plan::Plan& plan, const plan::Lumped& of) {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "lab/csv_text.hpp"
 #include "lab/host_estimator.hpp"
+#include "lab/median.hpp"
 
 namespace algest::lab {
 
@@ -83,14 +83,6 @@ void run_deviations(const plan::Plan& plan, const std::vector<std::vector<double
         }
         if (progress) progress(static_cast<double>(k) / static_cast<double>(samples));
     }
-}
-
-std::optional<double> median(std::vector<double> values) {
-    if (values.empty()) return std::nullopt;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return std::midpoint(*std::max_element(values.begin(), middle), *middle);
 }
 
 template <class S>

@@ -130,6 +130,39 @@ class Design(CommandLine):
         truth = {"R": R, "L": L}
         self.assertLess(self.error(text.replace('ode = "L', 'kappa = 1\node = "L'), recording, truth), 0.3 * self.error(text, recording, truth))
 
+    def test_a_parameter_that_is_zero(self):
+        """der(x) = 2 u + d, which the model takes for a u - b x: b = 0 and kappa = 1 is right. Without kappa b stands for the offset, in each window alike."""
+        truth, offset = 2.0, 0.8
+        draw = random.Random(1)
+        rows, x = [], 1.0
+        for k in range(4000):
+            u = 3 * math.sin(6 * math.pi * k / 1000) + 2 * math.sin(14 * math.pi * k / 1000) - offset / truth   # x does not run away
+            rows.append((k / 1000, u, x + 0.002 * draw.gauss(0, 1)))
+            x += 1e-3 * (truth * u + offset)
+        recording = self.write("zero.csv", "t [s],u [1/s],x [1]\n" + "".join(",".join(f"{value:.10g}" for value in row) + "\n" for row in rows))
+        text = COIL.replace('u = { unit = "V", hold = "zoh" }\ni = { unit = "A" }', 'u = { unit = "1/s", hold = "zoh" }\nx = { unit = "1", noise = 0.002 }')
+        text = text.replace('R = { unit = "ohm", initial = 1, min = 0 }\nL = { unit = "H", initial = 1, min = 1e-6 }', 'a = { unit = "1", initial = 1 }\nb = { unit = "1/s", initial = 1 }')
+        text = text.replace("L*der(i) = u - R*i", "der(x) = a*u - b*x").replace("solve_window = 0.2", "solve_window = 0.3")
+        answer = self.algest_json("design", self.write("model.toml", text), recording)
+        self.assertEqual(answer["recommended"]["kappa"], [1], answer["recommended"])
+        a, b = answer["reference"]["parameters"]
+        self.assertLess(abs(a["value"] / truth - 1), 0.02, a)   # 4000 samples of 0.5 percent noise
+        self.assertLess(abs(b["value"]), 0.05, b)               # the offset without kappa: 0.8 over a mean of x near 1
+
+    def test_the_engine_is_what_generate_counts(self):
+        recording = self.write("noisy.csv", coil(noise=0.05, seconds=0.5))
+        limited = COIL.replace('i = { unit = "A" }', 'i = { unit = "A", noise = 0.05 }') + "deviation_limit = 0.2\n"
+        growing = SQUARE.replace("period = 1e-3", "period = 1e-3\ngrowing = true") + '[estimator]\nengine = "moments"\nsolve = "square"\n'
+        for text, engines in ((SQUARE, {"fir", "moments"}), (limited, {"fir"}), (growing, {"moments"})):
+            with self.subTest(engines=engines):
+                curve = self.algest_json("design", self.write("model.toml", text), recording)["curve"]
+                self.assertEqual({t["engine"] for t in curve}, engines)
+                for t in curve[::4]:
+                    self.write("windowed.toml", with_window(text, t["window_s"]))
+                    costs = self.algest_json("generate", "windowed.toml", "-o", "out")["models"][0]["cost"]
+                    counted = {cost["engine"]: cost["operations"] for cost in costs}
+                    self.assertEqual(2 * t["multiply_adds"], counted[t["engine"]], t["window_s"])   # one product, one sum
+
     def test_simulated_motor(self):
         text = (SOURCE / "models" / "pmsm_electrical.toml").read_text().replace("period = 1e-3", "period = 1e-4")
         recording = self.write("motor.csv", motor())

@@ -146,6 +146,11 @@ class Structural(ModelCase):
         self.assertIn("m.toml: not identifiable\n  measured: x1; inputs: u; hidden: x2\n", out)
         self.assertIn("seen only in k02 + k12, k12*k21", out)
 
+    def test_seen_together_and_not_at_all(self):
+        self.ask("y u", "a b spare", ["der(y) = -y + log(a*u) + b"], "")   # log(a) + b is seen, which is no quotient of polynomials
+        _, out, _, _ = self.run_algest("check", "m.toml", "--identifiability")
+        self.assertRegex(out, r"a +not +seen only together with others\n +b +not +seen only together with others\n +spare +not +the measured signals say nothing of it\n")
+
     def test_the_product_of_measurements_counts(self):
         equations = PUBLISHED["HIV, viral load alone"][3]
         code, answer = self.ask("T I V", "lambda rho k delta N c", equations, "I")   # cells measured too: only delta and c change places
