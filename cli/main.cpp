@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <new>
 #include <string>
@@ -119,7 +120,10 @@ CLI::App* add_design(CLI::App& app, DesignOptions& options) {
     CLI::App* command = app.add_subcommand("design", "Which window, rows, kappa and engine suit a recording");
     command->add_option("MODEL", options.model, "model file; its window may be left out")->required();
     command->add_option("RECORDING", options.recording, recording_text)->required();
-    command->add_option("--accuracy", options.accuracy, "relative error that is wanted, e.g. 0.02: the shortest window that has it; default: the least error")->type_name("SHARE")->check(CLI::PositiveNumber);
+    command->add_option("--accuracy", options.accuracy, "relative error that is wanted, e.g. 0.02: the shortest window that has it; default: the least error")->type_name("SHARE")->check([](const std::string& text) {
+        double share = 0;
+        return CLI::detail::lexical_cast(text, share) && share > 0 && std::isfinite(share) ? std::string() : text + " is not a share above 0; write 0.05 for 5 percent";
+    });
     add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);
     command->footer(
