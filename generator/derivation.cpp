@@ -383,9 +383,9 @@ std::string derivation_latex(const Plan& plan) {
 
 namespace {
 
-/// Those of the table times the term's coefficient where they are no polynomial's.
+/// Those of the table times the term's coefficient where no interval is integrated over: differences of samples, means of steady states.
 std::vector<double> weights_of(const Plan& plan, const plan::RowTerm& t) {
-    if (t.kernel.empty()) {
+    if (t.kernel.empty() || plan.intervals == 0) {
         const Rational c = exact::from_text(t.coefficient);
         std::vector<double> out;
         if (t.table < 0) return {exact::nearest(c, plan.scalar)};
