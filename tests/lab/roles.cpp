@@ -103,14 +103,14 @@ TEST_CASE("roles: what stands for each kind in the equations of a motor") {
     CHECK(of("angle", motor(), 0) == Texts{});
     CHECK(of("any_speed", motor(), 0) == Texts{"w [rad/s]"});
     CHECK(of("any_speed", motor(), 1) == Texts{});              // its own is not any other
-    CHECK(of("input", motor(), 1) == Texts{"u [V]", "load [N.m]", "plain [1]"});
+    CHECK(of("input", motor(), 1) == Texts{"u [V]", "load [N.m]", "plain []"});
     CHECK(of("time", motor(), 1) == Texts{"t [s]"});
     CHECK(of("none of these", motor(), 1) == Texts{});
 }
 
 TEST_CASE("roles: a sensor that is not there stands for no input and no other speed, but a state may be its own") {
     const std::vector<bool> two = {true, true, false, false, false, true};   // u, i and plain
-    CHECK(of("input", motor(), 1, two) == Texts{"u [V]", "plain [1]"});
+    CHECK(of("input", motor(), 1, two) == Texts{"u [V]", "plain []"});
     CHECK(of("any_speed", motor(), 0, two) == Texts{});
     CHECK(of("speed", motor(), 1, two) == Texts{"w [rad/s]"});
     CHECK(of("angle", motor(), 1, two) == Texts{"th [rad]"});
