@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "generator/tape.hpp"
+#include "lab/linear_motion.hpp"
 #include "lab/past.hpp"
 
 namespace algest::lab {
@@ -37,6 +38,8 @@ public:
         scale_.resize(system.states.size(), 1.0);
         farthest_ = options.farthest;
         farthest_.resize(system.states.size(), std::numeric_limits<double>::max());
+        linear_ = is_linear(system, drive.held) && (system.driven.empty() || options.stride == 1);
+        for (const int s : system.driven) straight_ = straight_ || !drive.held[static_cast<std::size_t>(s)];
     }
 
     FreeRun over(const std::vector<double>& initial, const std::function<void(double)>& progress) {
@@ -64,7 +67,7 @@ public:
             keep_past(x);
             if (progress && k % 1024 == 0) progress(static_cast<double>(k) / static_cast<double>(drive_.samples));
         }
-        if (options_.effort != nullptr) options_.effort->spent += static_cast<double>(evaluations_) * static_cast<double>(system_.residual.operations.size());
+        if (options_.effort != nullptr) options_.effort->spent += static_cast<double>(evaluations_) * static_cast<double>(system_.residual.operations.size()) + static_cast<double>(leaps_ * 2 * x.size() * x.size());
         return std::move(out_);
     }
 
@@ -348,8 +351,54 @@ private:
         return -1;
     }
 
+    /// The exact step of a span, from what the rate changes by with each state.
+    void set_linear_step(std::size_t count) {
+        State rate(count);
+        State moved(count);
+        const State zero(count, 0.0);
+        set_state(zero);
+        rate_as_set(rate);
+        Eigen::MatrixXd a(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
+        for (std::size_t i = 0; i < count; ++i) {
+            State x = zero;
+            x[i] = scale_[i];
+            set_state(x);
+            rate_as_set(moved);
+            for (std::size_t k = 0; k < count; ++k) a(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = (moved[k] - rate[k]) / scale_[k];
+        }
+        linear_step_ = linear_step(a, span_);   // of states in their typical sizes: digits are lost where a matrix is badly scaled
+        const Eigen::Map<const Eigen::VectorXd> scale(scale_.data(), static_cast<Eigen::Index>(count));
+        for (Eigen::MatrixXd* phi : {&linear_step_.phi1, &linear_step_.phi2}) *phi = scale.asDiagonal() * *phi * scale.cwiseInverse().asDiagonal();
+    }
+
+    /// A linear system through a span in one step; false where a relay holds, or would switch: smaller steps look where.
+    bool leap(State& x) {
+        if (std::find(modes_.begin(), modes_.end(), Mode::holding) != modes_.end()) return false;
+        set_driven(0.0);
+        set_relays(x);
+        if (linear_step_.phi1.size() == 0) set_linear_step(x.size());
+        set_state(x);
+        rate_as_set(slope_);
+        if (straight_) {
+            set_driven(1.0);
+            rate_as_set(slope_ahead_);
+        }
+        State next = x;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            for (std::size_t k = 0; k < x.size(); ++k) {
+                next[i] += linear_step_.phi1(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) * slope_[k];
+                if (straight_) next[i] += linear_step_.phi2(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) * (slope_ahead_[k] - slope_[k]);
+            }
+        }
+        ++leaps_;
+        if (!modes_.empty() && switched(next, span_) >= 0) return false;
+        x = std::move(next);
+        return true;
+    }
+
     /// Through the span to the next kept sample; false where the run diverges.
     bool advance(State& x) {
+        if (linear_ && leap(x)) return finite(x);
         double from = 0;
         for (const double stop : breaks_) {
             if (!(stop > from)) continue;
@@ -448,6 +497,10 @@ private:
     std::vector<SamplesAgo> ago_;        ///< by delayed signal
     std::vector<double> breaks_;         ///< s into a span
     std::vector<MovingPast> past_;       ///< by delayed signal; empty for those that do not move
+    bool linear_ = false;                ///< while no relay switches
+    bool straight_ = false;              ///< an input moves between samples
+    LinearStep linear_step_;             ///< empty until it is needed
+    std::size_t leaps_ = 0;
     double since_ = 0;                   ///< part of the span at which the present step began
     double span_;           ///< s, from one kept sample to the next
     std::size_t sample_ = 0;

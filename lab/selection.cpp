@@ -28,6 +28,8 @@ constexpr double still_falling = 0.7;           ///< validation error over the b
 constexpr double needed_gain = 0.95;            ///< an effect must bring the validation error below this times what it was
 constexpr double needed_gain_of_further = 0.8;  ///< the same of a further effect where noise is guessed: nothing says what noise would leave
 constexpr double needed_significance = 2.5;     ///< standard errors of the difference over blocks (16: a t of 2.5 is 1 in 40)
+constexpr double rows_of_no_chance = 50;        ///< F statistic that noise of the process does not reach
+constexpr double gain_by_chance = 10;           ///< that the best of 50 candidates has, one search in three: 2 ln(50 * 3)
 constexpr double alike = 1.05;                  ///< validation errors within this ratio are not told apart,
 constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
 constexpr double clearly_worse = 1.3;           ///< ... unless they are beyond this ratio
@@ -210,8 +212,12 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         for (const std::size_t k : order) {
             if (next.size() < bases && fitted[k].score.nrmse < a_base_within * top.score.nrmse) next.push_back({fitted[k], row[k]});
         }
-        // Two that mend nothing alone are named together only where they explain everything.
-        if (!worth_it(top.score, out.best.score, gain) || (ahead && top.score.gap() > far_from_the_floor)) {
+        // Two that mend nothing alone are named together only where they explain everything; and so are two beside a declared noise, for two
+        // laws bend into the shape of a third.
+        const bool to_the_floor = ahead || (!out.best.amendments.empty() && bench.yardstick() == Yardstick::free_run && !guessed);
+        // A run that drifts on noise of the process is one sample, however long: some effect lies on its way.
+        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && out.evidence[row[order[0]].back()].strength < rows_of_no_chance && log_gain(top.score, out.best.score) < gain_by_chance;
+        if (by_chance || !worth_it(top.score, out.best.score, gain) || (to_the_floor && top.score.gap() > far_from_the_floor)) {
             if (ahead) break;
             ahead = true;
             beside = std::move(next);

@@ -34,7 +34,7 @@ ode = "J*der(w) = K*i - b*w"
 TC = 0.01   # N.m, hidden
 
 
-def recording(friction, seed):
+def recording(friction, seed, samples=5000):
     """Runge-Kutta with 20 steps a sample; R = 1, J = 2.5e-4, b = 2e-4; steps of voltage both ways every 0.12 s."""
     random.seed(seed)
     R, L, K, J, b = 1.0, 0.002, 0.05, 2.5e-4, 2e-4
@@ -44,7 +44,7 @@ def recording(friction, seed):
     def rate(i, w):
         return (u - R * i - K * w) / L, (K * i - b * w - friction * math.tanh(w / 0.02)) / J
 
-    for k in range(5000):
+    for k in range(samples):
         if k % 120 == 0:
             u = random.uniform(-8, 8)
         lines.append(f"{k * 1e-3:.3f},{u:.6f},{i + random.gauss(0, 0.005):.6f},{w + random.gauss(0, 0.1):.5f}")

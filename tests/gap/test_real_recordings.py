@@ -194,6 +194,29 @@ class RealRecordings(unittest.TestCase):
         self.assertAlmostEqual(1 - output["nrmse_before"] ** 2, 0.89, delta=0.02)
         self.assertGreater(1 - output["nrmse_after"] ** 2, 0.96)                  # of the test stretch; hysteresis is left
 
+    def test_resistance_and_offset_of_a_coil(self):
+        """Its documents say 2.2 ohm. The current never reverses: an offset and a drop against the current are the same voltage, and only the first
+        0.55 s, in which nothing drives and nothing flows, tell them apart: an offset would drive a current there."""
+        source = RECORDINGS / "maglev_multistep.csv"
+        i, u = column(source, "i_coil"), column(source, "u_coil")
+        driven = [k for k in range(1, len(u)) if u[k - 1] > 0 and u[k] > 0]   # the voltage of the period before
+        (resistance, drop), _ = least_squares([[i[k] for k in driven], [1.0] * len(driven)], [u[k - 1] for k in driven])
+        idle = [i[k] for k in range(1, len(u)) if u[k - 1] == u[k] == 0]
+        print(f"   least squares where it is driven: {resistance:.2f} ohm, {drop:.2f} V; idle: {rms(idle):.3f} A, where the offset alone would drive {-drop / resistance:.2f} A")
+        for stretch, verdict in ((["--train", "2:24", "--test", "24:34"], "ambiguous"), ([], "named")):
+            found = discover(MODELS / "maglev_coil.toml", source, self.folder / "found", *stretch)
+            show("coil, 2.2 ohm" + (", driven" if stretch else ""), found)
+            self.assertEqual(found["verdict"], verdict)
+            sets = [sorted(a) for a in found["alternatives"]] or [sorted(names(found))]
+            if stretch:
+                self.assertIn(["parameter_error", "voltage_offset"], sets)
+            self.assertIn(["inverter_dead_time", "parameter_error"], sets)
+            # Which of the two signals carries the noise moves the slope of least squares by 25 percent.
+            self.assertLess(abs(values(found)["R"] / resistance - 1), 0.25)
+            self.assertLess(abs(abs(values(found)["Vdt" if "Vdt" in values(found) else "V0"]) / drop - 1), 0.25)
+            (output,) = found["outputs"]
+            self.assertLess(output["nrmse_after"], output["nrmse_before"] / 5)
+
 
 def lag(x, period, tau):
     """First-order lag of a held input, exact from sample to sample, from zero."""
