@@ -128,6 +128,14 @@ bool nearer(const std::vector<RecordingEvidence>& recordings) {
     return gain > 0;
 }
 
+/// True when the yardstick that named finds the amended model no nearer on the test rows.
+bool refuted(const Workbench& bench, const Variant& nominal, const Variant& amended, const std::vector<RecordingEvidence>& recordings) {
+    if (bench.yardstick() == Yardstick::free_run) return !nearer(recordings);
+    const Score before = bench.rows_score(nominal, &Parts::test);
+    const Score after = bench.rows_score(amended, &Parts::test);
+    return !after.error.empty() && !(after.nrmse < before.nrmse);
+}
+
 /// A sentence for every reason why effects were left out.
 std::vector<std::string> untried(const Workbench& bench) {
     std::vector<std::string> out;
@@ -142,10 +150,10 @@ std::vector<std::string> untried(const Workbench& bench) {
     return out;
 }
 
-/// Takes back what was named.
-void refute(Discovery& out) {
-    out.verdict = Verdict::unknown;
-    out.doubts = {fmt::format("{} explained the training stretch and made the test stretch worse: nothing is added", out.effects.back().name)};
+/// Takes back what was named. doubts: of the nominal model alone.
+void refute(Discovery& out, std::vector<std::string> doubts) {
+    doubts.insert(doubts.begin(), fmt::format("{} explained the training stretch and made the test stretch worse: nothing is added", out.effects.back().name));
+    out.doubts = std::move(doubts);
     out.effects.clear();
     out.alternatives.clear();
     out.experiments.clear();
@@ -213,19 +221,24 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     if (progress) progress("confirm", 0.9);
     bench.refine(*nominal);
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
-    out.doubts = doubts(bench, *nominal, selection, out.verdict);
-    for (const std::string& doubt : untried(bench)) out.doubts.push_back(doubt);
+    const auto all_doubts = [&] {
+        std::vector<std::string> all = doubts(bench, *nominal, selection, out.verdict);
+        for (const std::string& doubt : untried(bench)) all.push_back(doubt);
+        return all;
+    };
+    out.doubts = all_doubts();
     bool stands = names_something(out.verdict);
     out.evidence = std::move(selection.evidence);
     const Variant* amended = stands ? &selection.best : nullptr;
     if (stands) for (const Amendment& a : selection.best.amendments) out.effects.push_back(named(selection.best, a, effects));
     if (out.verdict == Verdict::ambiguous) tell_apart(selection, effects, out);
     out.recordings = confirmed(bench, *nominal, amended);
-    if (amended != nullptr && bench.yardstick() == Yardstick::free_run && !nearer(out.recordings)) {
+    if (amended != nullptr && refuted(bench, *nominal, *amended, out.recordings)) {
         // What the training stretch liked, the test stretch refutes.
         amended = nullptr;
         stands = false;
-        refute(out);
+        out.verdict = Verdict::unknown;
+        refute(out, all_doubts());
     }
     if (amended != nullptr && !nearer(out.recordings)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
     out.residuals = residuals(bench, *nominal, amended);

@@ -9,9 +9,13 @@
 #include <limits>
 #include <map>
 
+#include "lab/deviations.hpp"
+
 namespace algest::lab {
 
 namespace {
+
+constexpr double digits_of_a_slope = 1e-3;   ///< slopes are differences of runs
 
 /// An initial value that the optimiser moves: of which run, and which state entry.
 struct StartEntry {
@@ -128,28 +132,6 @@ public:
 private:
     const Effort* effort_;
 };
-
-/// Standard deviations of a least squares from its normal equations; infinite for what lies in a direction that no row sees. Slopes are
-/// differences, good to three digits: columns more alike than that are not told apart.
-Eigen::VectorXd deviations_of(const Eigen::MatrixXd& normal) {
-    constexpr double digits_of_a_slope = 1e-3;
-    constexpr double part = 1e-2;   // of a unit vector, by which a parameter lies in a direction
-    const double infinity = std::numeric_limits<double>::infinity();
-    const Eigen::VectorXd size = normal.diagonal().cwiseSqrt();
-    const Eigen::VectorXd inverse = size.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * normal * inverse.asDiagonal());
-    Eigen::VectorXd out(normal.rows());
-    for (Eigen::Index i = 0; i < normal.rows(); ++i) {
-        double variance = 0;
-        for (Eigen::Index d = 0; d < normal.rows(); ++d) {
-            const double share = std::pow(solver.eigenvectors()(i, d), 2);
-            if (solver.eigenvalues()[d] > digits_of_a_slope * digits_of_a_slope) variance += share / solver.eigenvalues()[d];
-            else if (share > part * part) variance = infinity;
-        }
-        out[i] = size[i] > 0 ? std::sqrt(variance) * inverse[i] : infinity;
-    }
-    return out;
-}
 
 Variables choose_variables(const model::Model& model, const Bench& bench, const FitStart& start) {
     Variables out;
@@ -290,7 +272,7 @@ Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
         if (variance > 0) normal += part.transpose() * part / variance;
         at += of.rows;
     }
-    const Eigen::VectorXd deviations = deviations_of(normal);
+    const Eigen::VectorXd deviations = deviations_of(normal, digits_of_a_slope);
     for (std::size_t k = 0; k < variables.parameters.size(); ++k) out.sd[variables.parameters[k]] = deviations[static_cast<Eigen::Index>(k)] * variables.scale[k];
     out.runs = cost->runs;
     return out;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lab/noise.hpp"
 #include "lab/outputs.hpp"
@@ -46,6 +47,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     const auto nothing = [&] { return spoken_for || selection.cut_short || !noise_alone || structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
     if (best.amendments.empty()) return nothing();
     const double left = best.score.nrmse / nominal.score.nrmse;
+    if (std::isnan(left) || std::isnan(best.score.gap())) return Verdict::unknown;   // an error that is no number explains nothing
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor && !(floor == Floor::a_guess && left <= most_of_it)) {
@@ -73,7 +75,7 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         const std::string where = bench.recordings() > 1 ? bench.recording(r).file + ": " : "";
         for (const std::string& doubt : recording_doubts(nominal.model, bench_of(nominal, r))) out.push_back(where + doubt);
     }
-    if (verdict != Verdict::none) {
+    if (verdict != Verdict::none || nominal.score.gap() > at_the_floor) {
         for (const std::string& e : unseen(nominal)) out.push_back(fmt::format("'{}' has a signal that is not measured: only the free run could look for what it lacks", e));
     }
     if (selection.cut_short) out.push_back("the search was stopped before every effect was tried, for its free runs take long: the recording is long, or the model stiff or unstable with what was fitted");
@@ -115,9 +117,11 @@ bool excited(const Workbench& bench, const Variant& nominal, std::size_t recordi
             diagnostics.error(file, {}, "column '" + signal.column + "' is " + fmt::format("{:.6g}", *low) + " from end to end", "record the signal '" + signal.name + "', or give it scored = false");
             out = false;
         }
+        const double count = static_cast<double>(x.size());
+        const double mean = std::accumulate(x.begin(), x.end(), 0.0) / count;   // a machine at rest may rest far from zero
         double squares = 0;
-        for (const double value : x) squares += value * value;
-        moves = moves || std::sqrt(squares / static_cast<double>(x.size())) > 2 * noise[static_cast<std::size_t>(s)];
+        for (const double value : x) squares += (value - mean) * (value - mean);
+        moves = moves || std::sqrt(squares / count) > 2 * noise[static_cast<std::size_t>(s)];
     }
     if (out && !moves) {
         diagnostics.error(file, {}, "no output rises above its noise: the machine was not excited", "record it while its inputs move");

@@ -126,7 +126,7 @@ std::optional<Parts> parts_of(const Recording& recording, const std::optional<st
                           fmt::format("train on less, e.g. --train {:g}:{:.3g}; at least {} samples behind it are needed", train->first, recording.t[out.train.begin + (samples - out.train.begin) * 7 / 10], least_test));
         return std::nullopt;
     }
-    if (out.train.end <= out.train.begin + least_train || out.test.end <= out.test.begin + least_test) {
+    if (out.train.end < out.train.begin + least_train || out.test.end < out.test.begin + least_test) {
         const auto size = [](const Rows& r) { return std::to_string(r.end > r.begin ? r.end - r.begin : 0); };
         diagnostics.error(recording.file, {}, "too short: " + size(out.train) + " samples to train on, " + size(out.test) + " to test on",
                           "at least " + std::to_string(least_train) + " and " + std::to_string(least_test) + " are needed");
@@ -212,7 +212,7 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
     if (yardstick_ == Yardstick::rows) {
         const WeakEstimate estimate = weak_estimate(v.model, stretches(v, &Parts::fitted), row_intervals(parts().validation), start);
         v.fit = {estimate.parameters, estimate.sd, initial, 0, true, 0, own_starts(v)};
-        v.score = rows_score(v);
+        v.score = rows_score(v, &Parts::validation);
         return;
     }
     v.fit = {start, {}, initial, 0, false, 0, own_starts(v)};
@@ -310,12 +310,12 @@ Score Workbench::free_run_score(const Variant& v) const {
     return out;
 }
 
-Score Workbench::rows_score(const Variant& v) const {
+Score Workbench::rows_score(const Variant& v, Rows Parts::*part) const {
     Score out;
     for (std::size_t r = 0; r < recordings(); ++r) {
         const Bench& bench = bench_of(v, r);
-        const Rows rows = parts(r).validation;
-        const int intervals = row_intervals(rows);
+        const Rows rows = parts(r).*part;
+        const int intervals = row_intervals(parts(r).validation);
         const std::vector<double> noise = noise_by_signal(v.model, bench);
         for (std::size_t e = 0; e < v.model.equations.size(); ++e) {
             if (is_kinematic(v.model, v.model.equations[e])) continue;   // a definition; every variant scores the same equations

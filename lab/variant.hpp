@@ -98,6 +98,10 @@ public:
     /// A part of each recording, for the rows of a variant's equations.
     std::vector<BenchRows> stretches(const Variant& v, Rows Parts::*part) const;
 
+    /// Residuals of the equations over short windows of a part of each recording, as shares of their driving sides; no entries where the part
+    /// is shorter than a window.
+    Score rows_score(const Variant& v, Rows Parts::*part) const;
+
     /// True when a disturbed start is still there a third of the training rows later: a long run adds up every small error.
     bool drifts(const Variant& fitted) const;
 
@@ -120,7 +124,6 @@ private:
     void drop_idle_kinematics(model::Model& model) const;
     void fit_from_elsewhere(Variant& v, FitStart from) const;
     Score free_run_score(const Variant& v) const;
-    Score rows_score(const Variant& v) const;
 
     struct Trial {
         const Recording* recording;

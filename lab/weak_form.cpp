@@ -10,6 +10,7 @@
 #include "generator/delay.hpp"
 #include "generator/kernel.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/deviations.hpp"
 #include "lab/held_parameters.hpp"
 #include "lab/noise.hpp"
 #include "lab/past.hpp"
@@ -20,6 +21,8 @@
 namespace algest::lab {
 
 namespace {
+
+constexpr double digits_of_a_column = 1e-6;   ///< normal equations keep half of the sixteen digits of their columns, less what rounding takes
 
 /// By known times: an equation with a delay that a parameter says has no such form.
 std::vector<model::Delay> delays_of(const model::Model& model, const equation::OperatorForm& form) {
@@ -266,13 +269,8 @@ WeakEstimate weak_estimate(const model::Model& model, const std::vector<BenchRow
     }
     linearise();
     const double variance = residual.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(windows - slopes.cols(), 1)) * rows_that_count_as_one(residual.data(), static_cast<std::size_t>(windows));
-    const Eigen::VectorXd size = slopes.colwise().norm();
-    for (Eigen::Index k = 0; k < size.size(); ++k) if (size[k] > 0) slopes.col(k) /= size[k];
-    const Eigen::MatrixXd covariance = (slopes.transpose() * slopes).completeOrthogonalDecomposition().pseudoInverse();
-    for (std::size_t k = 0; k < free.size(); ++k) {
-        const auto i = static_cast<Eigen::Index>(k);
-        if (size[i] > 0) out.sd[free[k]] = std::sqrt(variance * covariance(i, i)) / size[i];
-    }
+    const Eigen::VectorXd deviations = deviations_of(slopes.transpose() * slopes, digits_of_a_column);
+    for (std::size_t k = 0; k < free.size(); ++k) out.sd[free[k]] = std::sqrt(variance) * deviations[static_cast<Eigen::Index>(k)];
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/lab/workplace.hpp"
 
@@ -113,6 +114,12 @@ TEST_CASE("verdict: beyond twice the noise nothing added is none only where the 
     }
 }
 
+TEST_CASE("verdict: an error that is no number explains nothing") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(verdict(friction(), 10, {nan}) == Verdict::unknown);
+    CHECK(verdict(friction(), 10, {nan}, lab::Yardstick::rows) == Verdict::unknown);
+}
+
 TEST_CASE("verdict: a search that was cut short does not say none") {
     const Workplace& w = noise_alone();
     Selection selection = selected(at(*w.nominal, 1.5));
@@ -207,4 +214,5 @@ TEST_CASE("a recording that shows nothing is refused") {
     CHECK(complaint(noise_alone()).empty());
     CHECK(complaint(Workplace(still, 1e-3, "noise = 1e-3, initial = 0", [](double) { return 0.25; })) == "column 'x' is 0.25 from end to end");
     CHECK(complaint(Workplace(still, 1e-3, "noise = 1e-3, initial = 0", [](double x) { return 1e-3 * x; })) == "no output rises above its noise: the machine was not excited");
+    CHECK(complaint(Workplace(still, 1e-3, "noise = 1e-3, initial = 0", [](double x) { return 293 + 1e-3 * x; })) == "no output rises above its noise: the machine was not excited");
 }

@@ -100,3 +100,17 @@ TEST_CASE("weak form: a parameter that no row sees has no finite deviation") {
     CHECK(std::isinf(e.sd[1]));
     CHECK(e.parameters == std::vector<double>{1.0, 1.0});
 }
+
+TEST_CASE("weak form: two parameters that no row tells apart have no finite deviation, the third one has") {
+    Scene twice("name = \"t\"\n[sampling]\nperiod = 1e-3\n[signals]\nF = { unit = \"N\" }\nv = { unit = \"m/s\", initial = 0, noise = 1e-3 }\n[parameters]\n"
+                "m = { unit = \"kg\", initial = 1 }\nb = { unit = \"N.s/m\", initial = 1 }\nc = { unit = \"N.s/m\", initial = 1 }\n[[equation]]\node = \"m*der(v) = F - b*v - c*v\"\n");
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0.0, 1e-3);
+    const auto bench = lab::bench(twice.model, twice.recorded(samples, {{"F", force}, {"v", [&](double t) { return speed(t) + noise(random); }}}), twice.diagnostics);
+    REQUIRE(bench);
+    const lab::WeakEstimate e = lab::weak_estimate(twice.model, {{&*bench, Rows{0, samples}}}, 100, {1.0, 1.0, 1.0});
+    CHECK(std::isfinite(e.sd[0]));
+    CHECK(std::isinf(e.sd[1]));
+    CHECK(std::isinf(e.sd[2]));
+    CHECK(e.parameters[1] + e.parameters[2] == Approx(damping).epsilon(0.05));   // noise of 1e-3 over a second
+}
