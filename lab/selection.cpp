@@ -34,8 +34,8 @@ constexpr double alike = 1.05;                  ///< validation errors within th
 constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
 constexpr double clearly_worse = 1.3;           ///< ... unless they are beyond this ratio
 
-/// A set of effects that a further one is tried beside, and the rows of the evidence that led there.
-struct Base {
+/// A set of effects that was fitted, and the rows of the evidence that led there.
+struct Tried {
     Variant variant;
     std::vector<std::size_t> evidence;
 };
@@ -155,6 +155,30 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal, double ga
     return best;
 }
 
+/// Which of the others the data do not tell from `named`, into the selection; the rows of the rivals' evidence.
+std::vector<std::size_t> tell_rivals(Selection& out, const Precedence& precedence, const Contender& named, const std::vector<Tried>& others) {
+    std::vector<std::size_t> rows;
+    out.rivals.clear();
+    out.as_well.clear();
+    const std::set<std::string> own = identities(*named.variant);
+    for (const Tried& other : others) {
+        if (identities(other.variant) == own || !indistinguishable(*named.variant, other.variant)) continue;
+        const Precedence::Standing standing = precedence.beside(named, {&other.variant, out.evidence[other.evidence.back()].strength});
+        if (standing == Precedence::Standing::as_well) out.as_well.push_back(precedence.doubt(*named.variant, other.variant));
+        if (standing != Precedence::Standing::rival) continue;
+        out.rivals.push_back(other.variant);
+        rows.push_back(other.evidence.back());
+    }
+    return rows;
+}
+
+/// Sets with as many effects as this one at the most.
+std::vector<Tried> no_larger(const std::vector<Tried>& all, const Variant& than) {
+    std::vector<Tried> out;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(out), [&](const Tried& t) { return t.variant.amendments.size() <= than.amendments.size(); });
+    return out;
+}
+
 }  // namespace
 
 bool worth_it(const Score& a, const Score& b, double gain) {
@@ -166,14 +190,15 @@ bool worth_it(const Score& a, const Score& b, double gain) {
 Selection select_effects(Workbench& bench, const Variant& nominal, const std::vector<Effect>& effects, const StepReport& progress) {
     Selection out{nominal, {}, {}, false};
     const Precedence precedence(effects);
-    std::vector<Base> beside = {{nominal, {}}};
+    std::vector<Tried> beside = {{nominal, {}}};
+    std::vector<Tried> all;
+    std::vector<std::size_t> chosen, rivals;   // rows of the evidence
     const bool guessed = bench.yardstick() == Yardstick::free_run && guesses_noise(nominal.model, nominal.bench);
     const auto gain_of = [&](std::size_t effects_in_all) { return guessed && effects_in_all > 1 ? needed_gain_of_further : needed_gain; };
     bool ahead = false;   // the last step's effects are not worth it alone, a further one may show that they are
     std::set<std::set<std::string>> tried;
     for (int step = 1; step <= most_effects; ++step) {
-        std::vector<Variant> fitted;
-        std::vector<std::vector<std::size_t>> row;   // of the evidence, by fitted
+        std::vector<Tried> fitted;
         for (std::size_t b = 0; b < beside.size() && !bench.used_up(); ++b) {
             const Variant& base = beside[b].variant;
             const double share = (step - 1 + static_cast<double>(b) / static_cast<double>(beside.size())) / most_effects;
@@ -188,10 +213,10 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
                 if (progress) progress("fit " + c.binding.effect->name, 0.1 + 0.8 * share + 0.2 / most_effects);
                 auto v = with_candidate(bench, base, c);
                 if (!v) continue;
-                row.push_back(beside[b].evidence);
-                row.back().push_back(out.evidence.size());
+                std::vector<std::size_t> evidence = beside[b].evidence;
+                evidence.push_back(out.evidence.size());
                 out.evidence.push_back(evidence_of(*v, base, c.strength, step));
-                fitted.push_back(std::move(*v));
+                fitted.push_back({std::move(*v), std::move(evidence)});
             }
         }
         if (fitted.empty()) break;
@@ -199,24 +224,26 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
         const double gain = gain_of(out.best.amendments.size() + 1);
         std::vector<std::pair<bool, double>> merit;   // what is worth adding comes first: the criterion counts the rows of a poor fit as few
-        for (const Variant& v : fitted) merit.emplace_back(worth_it(v.score, out.best.score, gain), criterion(v, nominal));
+        for (const Tried& t : fitted) merit.emplace_back(worth_it(t.variant.score, out.best.score, gain), criterion(t.variant, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
         // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does, and so does dry friction that falls.
-        const auto contender = [&](std::size_t k) { return Contender{&fitted[k], out.evidence[row[k].back()].strength}; };
-        const Variant& nearest = fitted[order[0]];
+        const auto contender = [&](std::size_t k) { return Contender{&fitted[k].variant, out.evidence[fitted[k].evidence.back()].strength}; };
+        const Variant& nearest = fitted[order[0]].variant;
         for (std::size_t k = 1; k < order.size(); ++k) {
-            if (precedence.before(contender(order[k]), contender(order[0])) && indistinguishable(nearest, fitted[order[k]])) std::swap(order[0], order[k]);
+            if (precedence.before(contender(order[k]), contender(order[0])) && indistinguishable(nearest, fitted[order[k]].variant)) std::swap(order[0], order[k]);
         }
-        const Variant& top = fitted[order[0]];
-        std::vector<Base> next;
-        for (const std::size_t k : order) {
-            if (next.size() < bases && fitted[k].score.nrmse < a_base_within * top.score.nrmse) next.push_back({fitted[k], row[k]});
-        }
+        std::vector<Tried> ordered;
+        for (const std::size_t k : order) ordered.push_back(std::move(fitted[k]));
+        const Contender named = {&ordered[0].variant, out.evidence[ordered[0].evidence.back()].strength};
+        const Variant& top = *named.variant;
+        std::vector<Tried> next;
+        for (const Tried& t : ordered) if (next.size() < bases && t.variant.score.nrmse < a_base_within * top.score.nrmse) next.push_back(t);
+        all.insert(all.end(), ordered.begin(), ordered.end());
         // Two that mend nothing alone are named together only where they explain everything; and so are two beside a declared noise, for two
         // laws bend into the shape of a third.
         const bool to_the_floor = ahead || (!out.best.amendments.empty() && bench.yardstick() == Yardstick::free_run && !guessed);
         // A run that drifts on noise of the process is one sample, however long: some effect lies on its way.
-        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && out.evidence[row[order[0]].back()].strength < rows_of_no_chance && log_gain(top.score, out.best.score) < gain_by_chance;
+        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && named.strength < rows_of_no_chance && log_gain(top.score, out.best.score) < gain_by_chance;
         if (by_chance || !worth_it(top.score, out.best.score, gain) || (to_the_floor && top.score.gap() > far_from_the_floor)) {
             if (ahead) break;
             ahead = true;
@@ -224,17 +251,8 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
             continue;
         }
         ahead = false;
-        for (const std::size_t r : row[order[0]]) out.evidence[r].chosen = true;
-        out.rivals.clear();
-        out.as_well.clear();
-        for (const std::size_t k : order) {
-            if (k == order[0] || !indistinguishable(top, fitted[k])) continue;
-            const Precedence::Standing standing = precedence.beside(contender(order[0]), contender(k));
-            if (standing == Precedence::Standing::as_well) out.as_well.push_back(precedence.doubt(top, fitted[k]));
-            if (standing != Precedence::Standing::rival) continue;
-            out.rivals.push_back(fitted[k]);
-            out.evidence[row[k].back()].rival = true;
-        }
+        chosen = ordered[0].evidence;
+        rivals = tell_rivals(out, precedence, named, ordered);
         out.best = sharply_switched(bench, sharpened(bench, top, nominal, effects));
         beside = std::move(next);
         beside[0].variant = out.best;
@@ -245,10 +263,14 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
     out.cut_short = bench.used_up();
     const std::size_t before = out.best.amendments.size();
     out.best = pruned(bench, out.best, nominal, gain_of(2));
-    if (out.best.amendments.size() < before) {
-        out.rivals.clear();
-        out.as_well.clear();
-    }
+    const auto kept = [&](std::size_t r) {
+        return std::any_of(out.best.amendments.begin(), out.best.amendments.end(), [&](const Amendment& a) { return a.effect == out.evidence[r].effect && place(a, out.best.whole) == out.evidence[r].equation; });
+    };
+    chosen.erase(std::remove_if(chosen.begin(), chosen.end(), [&](std::size_t r) { return !kept(r); }), chosen.end());
+    // What is left without the effects that are not missed was compared with others of its size while they were beside it.
+    if (out.best.amendments.size() < before) rivals = tell_rivals(out, precedence, {&out.best, out.evidence[chosen.back()].strength}, no_larger(all, out.best));
+    for (const std::size_t r : chosen) out.evidence[r].chosen = true;
+    for (const std::size_t r : rivals) out.evidence[r].rival = true;
     return out;
 }
 
