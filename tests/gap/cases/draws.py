@@ -18,6 +18,7 @@ from environment import ALGEST, BUILD, SHARED, SOURCE
 
 NOTHING = ("none", "none_process", "none_coloured")
 OUTSIDE_SHARE = 0.2
+GROUPS = ("nothing", "outside", "faint", "rivals", "clear")
 CLEAR_GAP = 3.0         # of the nominal model over the floor, from which on a name is due
 
 
@@ -106,12 +107,16 @@ class Matrix:
     def false_names(self):
         return self.totals["nothing", "named"] + self.totals["nothing", "ambiguous"]
 
+    def refused(self):
+        """Runs that did not end well, whatever is hidden."""
+        return sum(self.totals[group, "refused"] for group in GROUPS) // 2   # judged and said, both
+
     def wrong_names(self):
         """Of all draws: named, and not what is hidden."""
-        return sum(self.totals[group, "wrong"] for group in ("nothing", "outside", "faint", "rivals", "clear"))
+        return sum(self.totals[group, "wrong"] for group in GROUPS)
 
     def draws(self):
-        return sum(self.totals[group] for group in ("nothing", "outside", "faint", "rivals", "clear"))
+        return sum(self.totals[group] for group in GROUPS)
 
     def text(self):
         out = ["", "hidden -> said"]
@@ -125,7 +130,8 @@ class Matrix:
         right = sum(self.totals[group, judged] for group in ("clear", "rivals") for judged in ("right", "honest"))
         unknown = self.totals["outside", "right"]
         out += ["", f"draws: {self.draws()}, of them {self.totals['nothing']} with nothing hidden, {self.totals['outside']} outside the library",
-                f"false names where nothing is hidden: {self.false_names()} of {self.totals['nothing']}",
+                f"refused: {self.refused()}",
+                f"false names where nothing is hidden: {self.false_names()} of {self.totals['nothing']}, a gap seen in {self.totals['nothing', 'unknown']}",
                 f"right where the gap is above {CLEAR_GAP:g} floors: {right} of {due} ({100 * right / max(due, 1):.1f} %), "
                 f"of them without a rival that the data allow {self.totals['clear', 'right']} of {self.totals['clear']}",
                 f"wrong names with verdict named: {self.wrong_names()} of {self.draws()} ({100 * self.wrong_names() / max(self.draws(), 1):.1f} %)",

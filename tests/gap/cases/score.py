@@ -90,7 +90,8 @@ def discover(options, folder, names):
     seconds = time.monotonic() - start
     (folder / "discover.json").write_text(done.stdout)
     if done.returncode:
-        return {"judged": "refused", "error": done.stderr.strip()[-300:], "seconds": seconds}
+        return {"judged": "refused", "error": done.stderr.strip()[-300:], "seconds": seconds, "expected": expected(answer), "truth": answer["verdict"],
+                "allowed": answer["may_stay_ambiguous"]}
     found = json.loads(done.stdout)
     before, after = scoring.gap(found, answer)
     named = ", ".join(f"{e['name']} ({e['equation'].split(' of ')[-1]})" for e in found["effects"])

@@ -27,6 +27,8 @@ class FreshCases(unittest.TestCase):
         matrix = draws.confusion(draws.draw(seed, COUNT), keep=os.environ.get("ALGEST_KEEP"), jobs=int(os.environ.get("ALGEST_JOBS", "0")) or None)
         print(matrix.text())
         totals = matrix.totals
+        with self.subTest("every run ends well"):
+            self.assertEqual(matrix.refused(), 0)
         with self.subTest("false names"):
             self.assertLessEqual(matrix.false_names(), max(1, FALSE_NAMES * totals["nothing"]))
         with self.subTest("wrong names"):
