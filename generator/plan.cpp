@@ -20,6 +20,7 @@
 #include "generator/model.hpp"
 #include "generator/names.hpp"
 #include "generator/noise_channels.hpp"
+#include "generator/noise_floor.hpp"
 #include "generator/planner.hpp"
 #include "generator/row_choice.hpp"
 #include "generator/row_functional.hpp"
@@ -69,6 +70,7 @@ public:
         plan_.kept = plan_.moments ? 0 : kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
         if (diagnostics_.failed()) return std::nullopt;
         if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
+        plan_.noise_floor = noise_floor(plan_);
         if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
         return std::move(plan_);
     }
@@ -515,6 +517,7 @@ private:
         const auto finite = [](const std::vector<double>& numbers) { return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }); };
         std::vector<double> numbers = {plan_.rate, plan_.condition_limit, plan_.deviation_limit};
         for (const plan::NoiseChannel& c : plan_.noise) numbers.push_back(c.factor);
+        numbers.insert(numbers.end(), plan_.noise_floor.begin(), plan_.noise_floor.end());
         if (plan_.moments) {
             for (const plan::MomentTable& t : plan_.moments->tables) {
                 numbers.insert(numbers.end(), t.coefficients.begin(), t.coefficients.end());
