@@ -374,7 +374,7 @@ VALUES = [
     ("whitened rows without noise", changed(PLAIN, "x = {}", "x = { noise = 1 }", "a = {}", "a = { initial = 1 }", "b = {}", "b = { initial = 1 }",
                                             'ode = "der(x) = a*x + b*u"\n', 'ode = "der(x) = a*x + b*u"\nrows = 2\n[[equation]]\node = "der(y) = a*y + b*u"\nrows = 2\n'
                                             "▸[estimator]\nwhiten = true\n"), "have no noise"),
-    ("deviation limit of zero", noisy("deviation_limit = ▸0\n"), "not positive"),
+    ("a negative deviation limit", noisy("deviation_limit = ▸-0.1\n"), "is negative"),
     ("deviation limit without noise", estimator("deviation_limit = ▸0.1\n"), "needs the noise of the sensors"),
     ("deviation limit of all rows since reset", noisy('solve = "least_squares"\ndeviation_limit = ▸0.1\n'), "not to be had with least_squares"),
     ("uncertainty that is no boolean", noisy('uncertainty = ▸"yes"\n'), "neither true nor false"),
@@ -480,6 +480,7 @@ FORMULAS = [
     ("two parentheses", ode("der(x) = (a)▸(x) + b*u"), "an operator is missing before '('"),
     ("two points in a number", ode("der(x) = 1.5▸.2*a*x + b*u"), "unexpected '.'"),
     ("a point", ode("der(x) = a*x + b*u + ▸."), "not a number"),
+    ("fraction of 402 digits", ode("der(x) = a*x + b*u + ▸1.5e-400"), "at most 400 digits"),
     ("number of 401 digits", ode("der(x) = a*x + b*u + ▸0." + "1" * 401), "at most 400 digits"),
     ("number with a huge exponent", ode("der(x) = a*x + b*u + ▸1e401"), "within +-400"),
     ("closed too often", ode("der(x) = (a*x + b*u)▸)"), "')' without '('"),
