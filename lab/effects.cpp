@@ -19,12 +19,19 @@ using units::Unit;
 
 namespace {
 
-/// The first of the effect's units that an equation fits; nullopt: none. An effect that names none fits every equation.
+/// The unit of an equation that the effect may enter, as a text that UDUNITS reads; empty: unknown, or the effect names none and fits every
+/// equation. Nullopt: it may not enter. A balance stays one when it is divided by its inertia, or written in amperes.
 std::optional<std::string> unit_that_fits(const Effect& effect, const model::Model& model, std::size_t equation) {
     if (effect.units.empty()) return "";
-    const Unit unit = model::unit_of_equation(model, model.equations[equation]);
-    const auto spelling = std::find_if(effect.units.begin(), effect.units.end(), [&](const std::string& u) { return fits(unit, u); });
-    return spelling == effect.units.end() ? std::nullopt : std::optional(*spelling);
+    const model::Equation& e = model.equations[equation];
+    const Unit unit = model::unit_of_equation(model, e);
+    for (const std::string& u : effect.units) if (fits(unit, u)) return u;
+    const std::string balance = balanced(model, e);
+    if (balance.empty() || std::find(effect.units.begin(), effect.units.end(), balance) == effect.units.end()) return std::nullopt;
+    const Moved own = moved(model, e);
+    const std::string& of_signal = model.signals[static_cast<std::size_t>(own.signal)].unit;
+    const std::string rate = of_signal.empty() ? "" : own.order == 1 ? "(" + of_signal + ")/s" : "(" + of_signal + ")/s^" + std::to_string(own.order);
+    return !unit.known() ? "" : fits(unit, rate) ? rate : unit.text();
 }
 
 /// Every combination of what may stand for the roles in an equation.
