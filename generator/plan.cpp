@@ -78,6 +78,7 @@ private:
         if (model_.window) plan_.intervals = cln::cl_I_to_int(cln::numerator(*model_.window / *model_.period));
         plan_solver(model_, plan_);
         plan_discrete(model_, options_, plan_);
+        plan_.moments = moments(model_, options_.engine, plan_, diagnostics_);   // says that they will not do
         plan_.kept = kept_samples(plan_.solve, 0, false, false);
         if (!within_limits(model_, plan_, diagnostics_)) return std::nullopt;
         return std::move(plan_);
@@ -88,7 +89,7 @@ private:
         if (!model_.period) diagnostics_.error(model_.path, model_.sampling_at, "no sampling period", "add [sampling] period = 1e-3, in seconds");
         if (!model_.window && model_.estimator.has_window() && !pooled_samples) {
             diagnostics_.error(model_.path, model_.sampling_at, "no window: an estimator needs one",
-                               "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
+                               "add [sampling] window = " + exact::decimal(100 * model_.period.value_or(Rational(1) / 1000)) + ", in seconds: long against noise, short against what changes; `algest design` finds one on a recording");
         }
         if (model_.parameters.empty() && !model_.discrete) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
         return !diagnostics_.has_errors();
