@@ -38,7 +38,7 @@ public:
         scale_.resize(system.states.size(), 1.0);
         farthest_ = options.farthest;
         farthest_.resize(system.states.size(), std::numeric_limits<double>::max());
-        linear_ = is_linear(system, drive.held) && (system.driven.empty() || options.stride == 1);
+        linear_ = breaks_.empty() && is_linear(system, drive.held) && (system.driven.empty() || options.stride == 1);
         for (const int s : system.driven) straight_ = straight_ || !drive.held[static_cast<std::size_t>(s)];
     }
 

@@ -52,8 +52,7 @@ struct RunOptions {
 /// they are held. A sgn() is a relay: a step never straddles its switch, and where the motion holds its argument at zero
 /// (sticking friction) the relay takes the value that keeps it there, so no width of smoothing enters. No step straddles a sample of a
 /// delayed input either; before its first sample such a signal has its first value.
-/// A system that is linear but for its relays takes one exact step from sample to sample while none of them switches (linear_motion.hpp).
-/// Cost: samples times at least six evaluations of the residual's tape per highest derivative and one; one or two where it is linear.
+/// Cost: samples times at least six evaluations of the residual's tape per highest derivative and one; one or two where it is linear (linear_motion.hpp).
 FreeRun free_run(const OdeSystem& system, const std::vector<double>& parameters, const std::vector<double>& initial, const Drive& drive,
                  const RunOptions& options, const std::function<void(double)>& progress = {});
 

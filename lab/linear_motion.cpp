@@ -61,11 +61,13 @@ Eigen::MatrixXd exponential(const Eigen::MatrixXd& m) {
 }  // namespace
 
 bool is_linear(const OdeSystem& system, const std::vector<bool>& held) {
-    if (!system.constant_mass || !system.delays.empty() || !system.layers.empty()) return false;
+    const bool remembers = std::any_of(system.delays.begin(), system.delays.end(), [](const DelayedSignal& d) { return d.moves; });
+    if (!system.constant_mass || remembers || !system.layers.empty()) return false;
     std::vector<Course> inputs(static_cast<std::size_t>(system.inputs), Course::constant);
     for (const int s : system.driven) inputs[static_cast<std::size_t>(s)] = held[static_cast<std::size_t>(s)] ? Course::held : Course::straight;
     for (const Law& law : system.laws) inputs[static_cast<std::size_t>(law.signal)] = Course::held;
     for (const Output& output : system.outputs) inputs[static_cast<std::size_t>(output.signal)] = Course::held;
+    for (std::size_t d = 0; d < system.delays.size(); ++d) inputs[static_cast<std::size_t>(system.delay_input) + d] = inputs[static_cast<std::size_t>(system.delays[d].signal)];
     for (std::size_t r = 0; r < system.relays.size(); ++r) inputs[static_cast<std::size_t>(system.relay_input) + r] = Course::held;
     for (std::size_t m = 0; m < system.moving.size(); ++m) {
         inputs[static_cast<std::size_t>(system.moving[m])] = Course::affine;

@@ -13,7 +13,7 @@ def no_constant(name):
     raise AssertionError(f"{name} is no JSON")
 
 
-def attempt(model, recording, directory, *options, timeout=300):
+def attempt(model, recording, directory, *options, timeout=900):
     """The run, whatever comes of it."""
     words = [ALGEST, "discover", model, recording, "-o", directory, "--json", *options]
     return subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL, text=True, capture_output=True, timeout=timeout)
