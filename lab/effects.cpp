@@ -2,6 +2,7 @@
 #include "lab/effects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "generator/units.hpp"
 #include "lab/bound_edits.hpp"
 #include "lab/effect_file.hpp"
+#include "lab/equation_unit.hpp"
 #include "lab/outputs.hpp"
 #include "lab/roles.hpp"
 #include "lab/rotating_frame.hpp"
@@ -19,12 +21,15 @@ using units::Unit;
 
 namespace {
 
-/// The first of the effect's units that an equation fits; nullopt: none. An effect that names none fits every equation.
+/// The first of the effect's units that an equation fits, or the equation's own where that is a multiple of it; nullopt: none fits. An
+/// effect that names none fits every equation.
 std::optional<std::string> unit_that_fits(const Effect& effect, const model::Model& model, std::size_t equation) {
     if (effect.units.empty()) return "";
     const Unit unit = model::unit_of_equation(model, model.equations[equation]);
     const auto spelling = std::find_if(effect.units.begin(), effect.units.end(), [&](const std::string& u) { return fits(unit, u); });
-    return spelling == effect.units.end() ? std::nullopt : std::optional(*spelling);
+    if (spelling == effect.units.end()) return std::nullopt;
+    const bool multiple = unit.known() && std::abs(unit.factor_to(*Unit::parse(*spelling)) - 1) > 1e-9;
+    return multiple ? equation_unit(model, model.equations[equation]) : *spelling;
 }
 
 /// Every combination of what may stand for the roles in an equation.
