@@ -22,6 +22,13 @@ struct CheckOptions {
 /// "identifiability": what cli/identifiability.hpp says.
 int check(const CheckOptions& options);
 
+struct KeysOptions {
+    std::string format = "text";  ///< text, markdown (the tables of docs/model-file.md), json
+};
+/// Prints what may stand in a model file. JSON: {"sections": [{"heading", "keys": [{"name", "unit", "default" (TOML; words in parentheses; or ""),
+/// "meaning", "page" (of docs/)}]}]}.
+int keys(const KeysOptions& options);
+
 struct DeriveOptions {
     std::string model;
     std::string format = "text";  ///< text, latex, json

@@ -34,6 +34,20 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
     return command;
 }
 
+CLI::App* add_keys(CLI::App& app, KeysOptions& options) {
+    CLI::App* command = app.add_subcommand("keys", "What may stand in a model file: every key, its unit, default and meaning");
+    command->add_option("--format", options.format, "text, markdown or json")
+        ->check(CLI::IsMember({"text", "markdown", "json"}))
+        ->capture_default_str();
+    command->add_flag_callback(
+        "--json", [&options] { options.format = "json"; }, "the same as --format json");
+    command->footer(
+        "Examples:\n"
+        "  algest keys\n"
+        "  algest keys --json");
+    return command;
+}
+
 CLI::App* add_derive(CLI::App& app, DeriveOptions& options) {
     CLI::App* command = app.add_subcommand("derive", "Shows how the estimator of a model follows from it");
     command->add_option("MODEL", options.model, "model file")->required();
@@ -46,7 +60,7 @@ CLI::App* add_derive(CLI::App& app, DeriveOptions& options) {
     command->footer(
         "Examples:\n"
         "  algest derive models/rl_circuit.toml\n"
-        "  algest derive models/dc_motor.toml --format latex > dc_motor.tex\n"
+        "  algest derive models/dc_motor.toml --format latex > build/dc_motor.tex\n"
         "  algest derive models/dc_motor.toml --format json --weights");
     return command;
 }
@@ -65,8 +79,8 @@ CLI::App* add_generate(CLI::App& app, GenerateOptions& options) {
     command->footer(
         "Exit code: 0 done, 1 --check found a difference, 2 a model or a file is at fault.\n\n"
         "Examples:\n"
-        "  algest generate models/rl_circuit.toml\n"
-        "  algest generate models/dc_motor.toml -o firmware/estimators --scalar float\n"
+        "  algest generate models/rl_circuit.toml -o build/estimators\n"
+        "  algest generate models/pmsm_electrical.toml -o build/estimators --scalar float\n"
         "  algest generate models/*.toml --check");
     return command;
 }
@@ -106,12 +120,12 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
     command->add_flag("--json", options.json, json_text);
     command->footer(
         "Examples:\n"
-        "  algest replay models/positioning_axis.toml emps.csv\n"
-        "  algest replay models/positioning_axis.toml emps.csv --from 2 --to 10 -o estimates.csv\n"
-        "  algest replay models/pendulum.toml swing.csv --json\n"
-        "  algest replay models/pendulum.toml swing.csv --report swing.html\n"
-        "  algest replay models/pendulum.toml monday/*.csv --jobs 4\n"
-        "  algest replay models/servo.toml lift.csv --batch\n\n"
+        "  algest replay models/rl_circuit.toml examples/rl_circuit/recording.csv\n"
+        "  algest replay models/rl_circuit.toml examples/rl_circuit/recording.csv --from 0.03 --to 0.1 -o build/estimates.csv\n"
+        "  algest replay models/rl_circuit.toml examples/rl_circuit/recording.csv --json\n"
+        "  algest replay models/rl_circuit.toml examples/rl_circuit/recording.csv --report build/coil.html\n"
+        "  algest replay models/rl_circuit.toml examples/rl_circuit/*.csv --jobs 4\n"
+        "  algest replay examples/rl_circuit/derivative.toml examples/rl_circuit/recording.csv --batch\n\n"
         "Exit code: 0 done, 1 --batch found parameters that the recording does not determine, 2 a model or a file is at fault.");
     return command;
 }
@@ -149,8 +163,8 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
         "Exit code: 0 done, 1 the run diverged, 2 a model or a file is at fault.\n\n"
         "Examples:\n"
         "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv\n"
-        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 -o run.csv\n"
-        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 --report run.html");
+        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 -o build/run.csv\n"
+        "  algest simulate models/rl_circuit.toml examples/rl_circuit/recording.csv --set R=3.01 --set L=0.009 --report build/run.html");
     return command;
 }
 
@@ -171,10 +185,9 @@ CLI::App* add_discover(CLI::App& app, DiscoverOptions& options) {
         "Verdicts: named; ambiguous (the data allow several); none (the model explains the data); unknown (a gap, and no known\n"
         "effect explains it). Effects are read from models/effects, and from a folder `effects` beside the model.\n"
         "Exit code: 0 done, 2 a model or a file is at fault.\n\n"
-        "Examples:\n"
-        "  algest discover motor.toml run.csv -o found\n"
-        "  algest discover motor.toml slow.csv fast.csv -o found\n"
-        "  algest discover motor.toml run.csv -o found --train 0:7 --test 7:10 --json");
+        "Examples (`make demo` makes the recording; several of one machine may stand there):\n"
+        "  algest discover examples/demo/motor.toml build/demo/motor.csv -o build/found\n"
+        "  algest discover examples/demo/motor.toml build/demo/motor.csv -o build/found --train 0:3 --test 3:5 --json");
     return command;
 }
 
@@ -189,8 +202,14 @@ int parse_and_run(int argc, char** argv, bool json) {
     CLI::App app{"From a model file to an on-line parameter estimator for a controller.", "algest"};
     app.set_version_flag("--version", "algest " ALGEST_VERSION, "Print the version and exit");
     app.require_subcommand(1);
-    app.footer("algest COMMAND --help says more, with examples.");
+    app.footer(
+        "algest COMMAND --help says more, with examples; they run in the project's folder.\n\n"
+        "Examples:\n"
+        "  algest check models/rl_circuit.toml\n"
+        "  algest generate models/rl_circuit.toml -o build/estimators\n"
+        "  algest replay models/rl_circuit.toml examples/rl_circuit/recording.csv");
     CheckOptions check_options;
+    KeysOptions keys_options;
     DeriveOptions derive_options;
     GenerateOptions generate_options;
     ReplayOptions replay_options;
@@ -198,6 +217,7 @@ int parse_and_run(int argc, char** argv, bool json) {
     SimulateOptions simulate_options;
     DiscoverOptions discover_options;
     const CLI::App* check_command = add_check(app, check_options);
+    const CLI::App* keys_command = add_keys(app, keys_options);
     const CLI::App* derive_command = add_derive(app, derive_options);
     const CLI::App* generate_command = add_generate(app, generate_options);
     const CLI::App* replay_command = add_replay(app, replay_options);
@@ -220,6 +240,7 @@ int parse_and_run(int argc, char** argv, bool json) {
     }
     replay_options.command = simulate_options.command = std::vector<std::string>(argv + 1, argv + argc);
     if (check_command->parsed()) return check(check_options);
+    if (keys_command->parsed()) return keys(keys_options);
     if (derive_command->parsed()) return derive(derive_options);
     if (generate_command->parsed()) return generate(generate_options);
     if (replay_command->parsed()) return replay(replay_options);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "generator/model_keys.hpp"
 #include "generator/model_sections.hpp"
 #include "generator/names.hpp"
 #include "generator/source_text.hpp"
@@ -34,8 +35,7 @@ void read_head(const toml::table& root, Reading& reading) {
 
 void read_sections(const toml::table& root, Reading& reading) {
     TomlAccess& file = reading.file;
-    file.known_keys(root, {"format", "name", "summary", "source", "sampling", "signals", "constants", "parameters", "transfer",
-                           "equation", "estimator", "feedback", "discrete", "filter"});
+    file.known_keys(root, key_names(Where::top));
     read_head(root, reading);
     read_sampling(root, reading);
     read_signals(root, reading);

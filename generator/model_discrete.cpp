@@ -2,6 +2,7 @@
 // [discrete]: orders, which levels of sums, and the names that its unknowns take.
 #include <algorithm>
 
+#include "generator/model_keys.hpp"
 #include "generator/model_sections.hpp"
 #include "generator/names.hpp"
 #include "generator/suggestion.hpp"
@@ -54,7 +55,7 @@ std::vector<Rational> read_coefficients(const toml::table& t, const char* key, T
 void read_row_filter(const toml::table& t, Discrete& d, TomlAccess& file) {
     const toml::table* filter = file.subtable(t, "row_filter");
     if (filter == nullptr) return;
-    file.known_keys(*filter, {"numerator", "denominator"});
+    file.known_keys(*filter, key_names(Where::row_filter));
     d.filter_numerator = read_coefficients(*filter, "numerator", file);
     d.filter_denominator = filter->contains("denominator") ? read_coefficients(*filter, "denominator", file) : std::vector<Rational>{1};
     if (!d.filter_denominator.empty() && cln::zerop(d.filter_denominator[0])) file.error(*filter->get("denominator"), "the filter's denominator begins with 0", "divide by a power of z: begin with what is not 0");
@@ -111,7 +112,7 @@ void read_discrete(const toml::table& root, Reading& reading) {
         if (reading.model.estimator.functional == Functional::discrete) file.error(reading.model.estimator.at, "functional = \"discrete\" without [discrete]", "add [discrete] with domain = \"q\" and n");
         return;
     }
-    file.known_keys(*t, {"domain", "output", "input", "n", "m", "numerator", "derivatives", "skip", "extra", "gamma", "row_filter"});
+    file.known_keys(*t, key_names(Where::discrete));
     Discrete d;
     d.at = position(*t);
     file.choose<plan::Domain>(*t, "domain", {{"z", plan::Domain::z}, {"q", plan::Domain::q}}, d.domain);

@@ -4,6 +4,7 @@
 
 #include "generator/constant_value.hpp"
 #include "generator/dimension.hpp"
+#include "generator/model_keys.hpp"
 #include "generator/model_sections.hpp"
 #include "generator/names.hpp"
 #include "generator/suggestion.hpp"
@@ -151,7 +152,7 @@ void read_estimation(const toml::table& t, Equation& e, Reading& reading) {
 void read_equation(const toml::table& t, Reading& reading) {
     TomlAccess& file = reading.file;
     Model& model = reading.model;
-    file.known_keys(t, {"name", "ode", "kappa", "rows", "scale", "perturbation"});
+    file.known_keys(t, key_names(Where::equation));
     Equation e;
     e.name = file.string(t, "name").value_or("equation " + std::to_string(model.equations.size() + 1));
     if (const auto fault = fault_of_prose(e.name)) file.error(*t.get("name"), fault->what, fault->right);
@@ -214,7 +215,7 @@ void read_formula(Signal& signal, const toml::table& t, Reading& reading) {
 void read_law(const toml::table& t, Reading& reading) {
     TomlAccess& file = reading.file;
     Model& model = reading.model;
-    file.known_keys(t, {"signal", "law"});
+    file.known_keys(t, key_names(Where::feedback));
     Feedback f;
     f.at = position(t);
     const auto signal = file.string(t, "signal");
@@ -270,7 +271,7 @@ std::vector<TransferInput> read_inputs(const toml::table& t, int n, TomlAccess& 
     if (t.get("input")->as_array()->empty()) file.error(*t.get("input"), "no input", "leave it out where the input is u, or name it");
     if (t.contains("m")) file.error(*t.get("m"), "m beside [[transfer.input]]", "give each input its own m");
     file.each_table(t, "input", [&](const toml::table& entry) {
-        file.known_keys(entry, {"signal", "m", "unknowns", "known"});
+        file.known_keys(entry, key_names(Where::transfer_input));
         TransferInput one;
         const auto signal = file.string(entry, "signal");
         if (!entry.contains("signal")) file.error(entry, "[[transfer.input]] without signal", "add signal = \"u\"");
@@ -294,7 +295,7 @@ bool knows_a_number(const Transfer& transfer) {
 
 void read_transfer(const toml::table& t, Reading& reading) {
     TomlAccess& file = reading.file;
-    file.known_keys(t, {"output", "input", "n", "m", "kappa", "rows", "unknowns", "known", "scale", "perturbation"});
+    file.known_keys(t, key_names(Where::transfer));
     Transfer transfer;
     transfer.at = position(t);
     transfer.output = file.string(t, "output").value_or("y");

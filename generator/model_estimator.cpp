@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [sampling] and [estimator]: times, solver, and what this version does not support.
+#include "generator/model_keys.hpp"
 #include "generator/model_sections.hpp"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ void read_ratio_filter(const toml::table& t, Reading& reading) {
     const toml::table* filter = file.subtable(t, "ratio_filter");
     if (filter == nullptr) return;
     Estimator& e = reading.model.estimator;
-    file.known_keys(*filter, {"omega_n", "zeta"});
+    file.known_keys(*filter, key_names(Where::ratio_filter));
     e.omega_n = file.positive(*filter, "omega_n");
     if (!filter->contains("omega_n")) file.error(*filter, "a ratio filter without omega_n", "write ratio_filter = { omega_n = 15, zeta = 0.707 }, omega_n in rad/s");
     if (const auto zeta = file.positive(*filter, "zeta")) {
@@ -140,7 +141,7 @@ void read_sampling(const toml::table& root, Reading& reading) {
     Model& model = reading.model;
     model.sampling_at = t == nullptr ? Position{1, 1} : position(*t);
     if (t == nullptr) return;
-    reading.file.known_keys(*t, {"period", "window", "decimate", "growing"});
+    reading.file.known_keys(*t, key_names(Where::sampling));
     model.period = reading.file.duration(*t, "period");
     model.window = reading.file.duration(*t, "window");
     if (t->contains("window")) model.window_at = position(*t->get("window"));
@@ -154,8 +155,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
     const toml::table* t = reading.file.subtable(root, "estimator");
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"functional", "form", "solve", "solve_window", "engine", "accumulators", "quadrature", "forgetting", "condition_limit", "deviation_limit", "uncertainty", "whiten",
-                          "ratio_filter", "stages", "stretches"});
+    file.known_keys(*t, key_names(Where::estimator));
     Estimator& e = reading.model.estimator;
     e.given = true;
     e.at = position(*t);

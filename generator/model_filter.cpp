@@ -2,6 +2,7 @@
 // [filter]: signals that go through the parabola filter, without an estimator.
 #include <algorithm>
 
+#include "generator/model_keys.hpp"
 #include "generator/model_sections.hpp"
 #include "generator/suggestion.hpp"
 
@@ -46,7 +47,7 @@ void read_filter(const toml::table& root, Reading& reading) {
     for (const char* key : {"equation", "transfer", "parameters", "estimator", "feedback"}) {
         if (root.contains(key)) file.error(*root.get(key), "a model with [filter] estimates nothing", "leave it out, or give the filter a model file of its own");
     }
-    file.known_keys(*t, {"kind", "signals"});
+    file.known_keys(*t, key_names(Where::filter));
     read_kind(*t, file);
     Filter filter{position(*t), read_filtered(*t, reading)};
     if (filter.signals.empty() && file.sound()) file.error(*t, "a filter without signals", "write signals = [\"omega\"], or leave it out: all signals then");

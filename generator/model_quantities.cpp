@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [signals], [constants], [parameters]: names, units, limits.
+#include "generator/model_keys.hpp"
 #include "generator/model_sections.hpp"
 #include "generator/names.hpp"
 #include "generator/units.hpp"
@@ -60,7 +61,7 @@ void read_signal(const std::string& name, Position at, const toml::node& node, R
     const toml::table* t = entry(name, node, reading);
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"unit", "hold", "noise", "resolution", "column", "initial", "scored", "min", "max", "formula", "steady", "lag"});
+    file.known_keys(*t, key_names(Where::signal));
     const bool named = take_name(name, at, reading);
     Signal s;
     s.name = name;
@@ -85,7 +86,7 @@ void read_constant(const std::string& name, Position at, const toml::node& node,
     const toml::table* t = entry(name, node, reading);
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"value", "unit"});
+    file.known_keys(*t, key_names(Where::constant));
     const bool named = take_name(name, at, reading);
     const auto value = file.number(*t, "value");
     if (!t->contains("value")) file.error(at, "constant " + quoted(name) + " has no value", "write NAME = { value = 1, unit = \"1\" }");
@@ -97,7 +98,7 @@ void read_parameter(const std::string& name, Position at, const toml::node& node
     const toml::table* t = entry(name, node, reading);
     if (t == nullptr) return;
     TomlAccess& file = reading.file;
-    file.known_keys(*t, {"unit", "initial", "min", "max"});
+    file.known_keys(*t, key_names(Where::parameter));
     const bool named = take_name(name, at, reading);
     Parameter p;
     p.name = name;

@@ -9,17 +9,16 @@
 #include <set>
 
 #include "generator/delay.hpp"
-#include "generator/dimension.hpp"
 #include "generator/discrete_plan.hpp"
-#include "generator/elimination_data.hpp"
 #include "generator/engine.hpp"
 #include "generator/generate.hpp"
-#include "generator/initial_value.hpp"
-#include "generator/low_pass.hpp"
 #include "generator/lumping.hpp"
 #include "generator/model.hpp"
 #include "generator/names.hpp"
 #include "generator/noise_channels.hpp"
+#include "generator/plan_limits.hpp"
+#include "generator/plan_parameters.hpp"
+#include "generator/plan_solver.hpp"
 #include "generator/planner.hpp"
 #include "generator/row_choice.hpp"
 #include "generator/row_functional.hpp"
@@ -63,36 +62,24 @@ public:
         plan_.intervals = functional_->intervals();
         equations();
         if (!inputs() || !past_inputs()) return std::nullopt;
-        solver();
+        plan_solver(model_, plan_);
         tables_and_rows(*weights);
-        unknowns_and_parameters();
+        plan_parameters(model_, lumping_, plan_);
         plan_.kept = plan_.moments ? 0 : kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
         if (diagnostics_.failed()) return std::nullopt;
         if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
-        if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
+        if (!within_limits(model_, plan_, diagnostics_)) return std::nullopt;
         return std::move(plan_);
-    }
-
-    static std::optional<std::vector<OperatorForm>> operator_forms(const model::Model& model, Diagnostics& diagnostics) {
-        std::vector<OperatorForm> out;
-        bool good = true;
-        for (const model::Equation& e : model.equations) {
-            auto form = equation::operator_form(model, e, diagnostics);
-            if (form && model.estimator.functional == model::Functional::average) form = in_steady_state(model, e, *form, diagnostics);
-            good = good && form.has_value();
-            if (form) out.push_back(*form);
-        }
-        return good ? std::optional(out) : std::nullopt;
     }
 
 private:
     std::optional<plan::Plan> run_discrete() {
         head();
         if (model_.window) plan_.intervals = cln::cl_I_to_int(cln::numerator(*model_.window / *model_.period));
-        solver();
+        plan_solver(model_, plan_);
         plan_discrete(model_, options_, plan_);
         plan_.kept = kept_samples(plan_.solve, 0, false, false);
-        if (!fits_the_runtime() || !numbers_fit_the_scalar()) return std::nullopt;
+        if (!within_limits(model_, plan_, diagnostics_)) return std::nullopt;
         return std::move(plan_);
     }
 
@@ -108,7 +95,6 @@ private:
     }
 
     bool averages() const { return model_.estimator.functional == model::Functional::average; }
-
 
     void head() {
         plan_.name = model_.name;
@@ -387,172 +373,6 @@ private:
         return out;
     }
 
-    void unknowns_and_parameters() {
-        std::vector<std::string> parameters;
-        for (const model::Parameter& p : model_.parameters) parameters.push_back(p.name);
-        std::vector<std::string> unknowns;
-        for (const lumping::Unknown& u : lumping_.unknowns) {
-            unknowns.push_back(u.name);
-            plan_.lumped.push_back({u.name, text(u.meaning, parameters), initial_value(u.meaning)});
-        }
-        TapeBuilder map(model_, plan_.scalar, {});
-        std::vector<int> operations(model_.parameters.size(), -1);
-        for (std::size_t k = 0; k < model_.parameters.size(); ++k) {
-            const model::Parameter& p = model_.parameters[k];
-            if (lumping_.elimination) {
-                plan_.parameters.push_back({p.name, p.unit, p.name, p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0, false});
-                map.result(map.input(static_cast<int>(k)));
-            }
-            if (!lumping_.inverse[k]) continue;
-            plan_.parameters.push_back({p.name, p.unit, text(*lumping_.inverse[k], unknowns), p.initial ? exact::nearest(*p.initial, plan_.scalar) : 0.0, false});
-            operations[k] = map.quotient(*lumping_.inverse[k]);
-            map.result(operations[k]);
-        }
-        perturbations(map, operations);
-        plan_.parameter_map = map.finish();
-        elimination();
-        if (plan_.uncertain() || plan_.solve == algest::Solve::least_squares) derivatives_of_the_map();
-    }
-
-    /// The rows were divided by the leading coefficient: what they say of a perturbation is multiplied by it.
-    void perturbations(TapeBuilder& map, const std::vector<int>& operations) {
-        int residual = static_cast<int>(plan_.lumped.size());
-        for (std::size_t e = 0; e < forms_.size(); ++e) {
-            const model::Equation& equation = model_.equations[e];
-            const lumping::LumpedEquation& lumped = lumping_.equations[e];
-            if (equation.perturbation.empty() || !lumped.used) continue;
-            const units::Unit unit = model::unit_of_equation(model_, equation);
-            for (int i = 1; i <= equation.kappa; ++i, ++residual) {
-                const units::Unit of_coefficient = unit.over(units::Unit::parse("s")->power(i - 1));
-                const int leading = map.quotient(lumped.leading, operations);
-                const int coefficient = map.input(residual);
-                map.result(lumped.divided ? map.times(coefficient, leading) : coefficient);
-                const std::string name = equation.kappa == 1 ? equation.perturbation : equation.perturbation + std::to_string(i);
-                const std::string power = i == 1 ? "1" : i == 2 ? "t" : "t^" + std::to_string(i - 1) + "/" + std::to_string(i - 1) + "!";
-                const std::string what = equation.kappa == 1 ? "constant perturbation of '" + equation.name + "' on the window"
-                                                             : "coefficient of " + power + " in the perturbation of '" + equation.name + "', t from the oldest sample of the window on";
-                plan_.parameters.push_back({name, of_coefficient.known() ? of_coefficient.text() : "", what, 0.0, true});
-            }
-        }
-    }
-
-    void elimination() {
-        plan_.elimination = lumping_.elimination;
-        if (!plan_.elimination) return;
-        const auto round = [&](auto& terms) {
-            for (auto& term : terms) term.coefficient = exact::nearest(exact::from_text(term.exact), plan_.scalar);
-        };
-        for (plan::EliminationStage& stage : plan_.elimination->stages) {
-            round(stage.alone);
-            round(stage.summands);
-        }
-        if (plan_.scalar == plan::Scalar::float32) plan_.notes.push_back("single precision does not hold the coefficients of a resultant, nor the products of signals of different sizes: use double");
-    }
-
-    void derivatives_of_the_map() {
-        TapeBuilder map(model_, plan_.scalar, {});
-        const int n = static_cast<int>(plan_.lumped.size());
-        std::vector<int> operations;
-        for (const auto& inverse : lumping_.inverse) if (inverse) operations.push_back(map.quotient(*inverse));
-        for (const int o : operations) for (int u = 0; u < n; ++u) map.result_or_zero(map.partial(o, plan::Op::input, u));
-        for (const int o : operations) {
-            for (int u = 0; u < n; ++u) {
-                const int slope = map.partial(o, plan::Op::input, u);
-                for (int v = u; v < n; ++v) map.result_or_zero(slope < 0 ? -1 : map.partial(slope, plan::Op::input, v));
-            }
-        }
-        plan_.map_derivatives = map.finish();
-    }
-
-    /// At the initial values of the parameters, rounded once; NaN where it has none.
-    double initial_value(const Quotient& q) const {
-        const auto value = model::at_initial(q, model_);
-        return value ? exact::nearest(*value, plan_.scalar) : std::numeric_limits<double>::quiet_NaN();
-    }
-
-    void solver() {
-        const model::Estimator& e = model_.estimator;
-        plan_.solve = e.solve == model::Solver::robust          ? algest::Solve::robust
-                      : e.solve == model::Solver::least_squares ? algest::Solve::least_squares
-                      : e.solve == model::Solver::elimination ? algest::Solve::elimination
-                                                                : algest::Solve::square;
-        plan_.solve_instants = 0;
-        if (plan_.solve == algest::Solve::robust) {
-            const Rational window = e.solve_window ? *e.solve_window : *model_.window;
-            if (!e.solve_window) plan_.notes.push_back("no solve_window: S(t) runs over one window");
-            plan_.solve_instants = cln::cl_I_to_int(cln::floor1(window / model_.window_period())) + 1;
-        }
-        plan_.keep = e.forgetting == 1 ? 1.0 : exact::nearest(*exact::function_value("sqrt", e.forgetting), plan_.scalar);
-        plan_.deviation_limit = e.deviation_limit ? exact::nearest(*e.deviation_limit, plan_.scalar) : 0.0;
-        plan_.whiten = e.whiten;
-        if (e.omega_n) {
-            const low_pass::Discrete filter = low_pass::discretised(*e.omega_n * *model_.period, e.zeta);
-            const auto rounded = [&](const auto& numbers) {
-                std::vector<double> out;
-                for (const Rational& x : numbers) out.push_back(exact::nearest(x, plan_.scalar));
-                return out;
-            };
-            plan_.ratio = {exact::text(*e.omega_n), exact::text(e.zeta), rounded(filter.transition), rounded(filter.before), rounded(filter.now)};
-        }
-        plan_.condition_limit = e.condition_limit ? exact::nearest(*e.condition_limit, plan_.scalar) : default_condition_limit();
-        if (plan_.scalar == plan::Scalar::float32) {
-            for (const plan::Equation& q : plan_.equations) {
-                if (q.n < 3) continue;
-                plan_.notes.push_back("single precision does not hold equation '" + q.name + "' of order " + std::to_string(q.n) + ": its kernels cancel (a third-order DC motor is off by 5 percent); use double");
-            }
-        }
-    }
-
-    /// Rows of a machine that is excited well have a condition of 10 to 1e4; beyond 1e5 they tell noise and rounding apart no more.
-    /// Single precision stops where rounding alone would cost three digits of seven; S(t) squares the condition of its rows.
-    double default_condition_limit() const {
-        if (model_.discrete) return plan_.scalar == plan::Scalar::float64 ? 1e14 : 1e9;
-        if (plan_.scalar == plan::Scalar::float64) return 1e5;
-        return plan_.solve == algest::Solve::robust ? 92.0 : 8.4e3;   // sqrt(1e-3 / epsilon), 1e-3 / epsilon
-    }
-
-    bool numbers_fit_the_scalar() {
-        const auto finite = [](const std::vector<double>& numbers) { return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }); };
-        std::vector<double> numbers = {plan_.rate, plan_.condition_limit, plan_.deviation_limit};
-        for (const plan::NoiseChannel& c : plan_.noise) numbers.push_back(c.factor);
-        if (plan_.moments) {
-            for (const plan::MomentTable& t : plan_.moments->tables) {
-                numbers.insert(numbers.end(), t.coefficients.begin(), t.coefficients.end());
-                numbers.insert(numbers.end(), t.growing.begin(), t.growing.end());
-                numbers.insert(numbers.end(), {t.oldest, t.newest, t.of_one, t.gain});
-            }
-        }
-        for (const plan::Row& row : plan_.perturbation) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
-        for (const plan::Row& row : plan_.rows) for (const plan::RowTerm& term : row.terms) numbers.push_back(term.factor);
-        for (const plan::Parameter& p : plan_.parameters) numbers.push_back(p.initial);
-        const auto elimination = plan::make_elimination<double>(plan_.elimination);
-        for (const auto* of : {&elimination.sizes, &elimination.coefficient_of, &elimination.terms}) numbers.insert(numbers.end(), of->begin(), of->end());
-        for (const auto& a : elimination.alone) numbers.push_back(a.coefficient);
-        for (const plan::Tape* tape : {&plan_.signals, &plan_.parameter_map, &plan_.map_derivatives}) for (const plan::Operation& o : tape->operations) numbers.push_back(o.value);
-        const bool tables_fit = std::all_of(plan_.tables.begin(), plan_.tables.end(), [&](const plan::Table& t) { return finite(t.weights); });
-        if (tables_fit && finite(numbers)) return true;
-        diagnostics_.error(model_.path, model_.sampling_at, std::string("a number of the estimator is beyond the range of ") + (plan_.scalar == plan::Scalar::float64 ? "double" : "float"),
-                           "measure in units of the signals' own size, e.g. ms and mm, or use double");
-        return false;
-    }
-
-    /// The runtime counts in 16 bits, and sizes in 31.
-    bool fits_the_runtime() {
-        std::size_t terms = 0;
-        for (const plan::Row& row : plan_.rows) terms += row.terms.size();
-        for (const plan::Row& row : plan_.perturbation) terms += row.terms.size();
-        const std::size_t rings = static_cast<std::size_t>(plan_.rings());
-        const std::size_t most = std::max({plan_.tables.size(), rings, plan_.rows.size(), plan_.lumped.size(), plan_.noise.size(), terms});
-        const double unknowns = static_cast<double>(plan_.lumped.size());
-        const double waiting = (plan_.longest_wait() + 1.0) * static_cast<double>(plan_.inputs.size());
-        const double scalars = waiting + std::max(2.0 * static_cast<double>(rings) * (plan_.samples() + plan_.kept),
-                                        std::max((plan_.solve_instants + 5.0) * (unknowns + 1) * (unknowns + 2) / 2, static_cast<double>(plan_.tables.size()) * plan_.samples()));
-        if (most < 65535 && scalars < 2e8) return true;
-        diagnostics_.error(model_.path, model_.sampling_at, "the estimator is too large: " + std::to_string(terms) + " terms, arrays of up to " + std::to_string(static_cast<long>(scalars)) + " numbers",
-                           "use a shorter window, fewer rows, or fewer equations in one model");
-        return false;
-    }
-
     const model::Model& model_;
     const PlanOptions& options_;
     Diagnostics& diagnostics_;
@@ -569,41 +389,18 @@ private:
     plan::Plan plan_;
 };
 
-/// True, with a warning for each, where parameters enter nonlinearly; what else keeps an equation from its form is an error.
-bool simulation_alone(const model::Model& model, Diagnostics& diagnostics) {
-    bool out = false;
-    for (const model::Equation& e : model.equations) {
-        const auto p = equation::nonlinear_parameter(model, e);
-        if (!p) continue;
-        diagnostics.warning(e.file, p->at, "parameter '" + p->name + "' stands " + p->where + ": simulate and discover fit it, an estimator cannot",
-                            "declare it under [constants] once its value is known");
-        out = true;
-    }
-    for (const model::Equation& e : model.equations) if (out && !equation::nonlinear_parameter(model, e)) (void)equation::operator_form(model, e, diagnostics);
-    return out;
-}
-
 }  // namespace
 
-bool check_model(const std::string& path, bool strict, Diagnostics& diagnostics) {
-    const auto model = model::read(path, strict, diagnostics);
-    if (!model) return false;
-    if (model->filter || simulation_alone(*model, diagnostics)) return !diagnostics.failed();
-    if (model->discrete || (!model->parameters.empty() && model->period && (model->window || !model->estimator.has_window()))) {   // an estimator follows, or it is said why not
-        PlanOptions options;
-        options.weights = false;
-        (void)Planner(*model, options, diagnostics).run();
-        return !diagnostics.failed();
+std::optional<std::vector<equation::OperatorForm>> operator_forms(const model::Model& model, Diagnostics& diagnostics) {
+    std::vector<equation::OperatorForm> out;
+    bool good = true;
+    for (const model::Equation& e : model.equations) {
+        auto form = equation::operator_form(model, e, diagnostics);
+        if (form && model.estimator.functional == model::Functional::average) form = in_steady_state(model, e, *form, diagnostics);
+        good = good && form.has_value();
+        if (form) out.push_back(*form);
     }
-    const auto forms = Planner::operator_forms(*model, diagnostics);
-    if (!forms) return false;
-    const auto lumping = lumping::lump(*model, *forms, diagnostics);
-    if (!lumping) return false;
-    if (!model->parameters.empty()) {
-        (void)choose_rows(*model, *lumping, diagnostics);
-        diagnostics.note(path, "sound; without [sampling] period and window it serves simulation, an estimator needs both");
-    }
-    return !diagnostics.failed();
+    return good ? std::optional(out) : std::nullopt;
 }
 
 std::optional<plan::Plan> plan_of(const model::Model& model, const PlanOptions& options, Diagnostics& diagnostics) {

@@ -109,6 +109,8 @@ class Design(CommandLine):
         mine = self.error(with_window(text, answer["recommended"]["window_s"]), recording, truth)
         scan = {window: self.error(with_window(text, window), recording, truth) for window in windows}
         best = min(scan.values())
+        print(f"recommended {answer['recommended']['window_s']:g} s: error {mine:.3g}, best of the scan {best:.3g} at {min(scan, key=scan.get):g} s, ratio {mine / best:.3f}; scan",
+              ", ".join(f"{window:g} s: {error:.3g}" for window, error in scan.items()))
         self.assertLessEqual(mine, ROUGHLY_BEST * best, (answer["recommended"], scan))
         self.assertGreater(max(scan.values()), ROUGHLY_BEST * best, scan)
         return answer
@@ -172,9 +174,23 @@ class Design(CommandLine):
     def test_measured_axis(self):
         text = (SOURCE / "models" / "positioning_axis.toml").read_text()
         published = {"M": 95.11, "Fv": 203.5, "Fc": 20.39, "offset": -3.16}   # Janot, Gautier, Brunot 2019, as recordings/README.md has them
-        answer = self.recommended_is_roughly_best(text, EMPS, published, [0.006, 0.02, 0.1, 0.5, 2, 3])
+        answer = self.recommended_is_roughly_best(text, EMPS, published, [0.006, 0.01, 0.02, 0.03, 0.044, 0.068, 0.1, 0.2, 0.5, 1, 2, 3])
+        self.page_shows(answer)
         for p in answer["reference"]["parameters"]:
             self.assertLess(abs(p["value"] / published[p["name"]] - 1), 0.03, p)
+
+    def page_shows(self, answer):
+        """The table of docs/design.md is this answer, to the digits that it shows."""
+        page = (SOURCE / "docs" / "design.md").read_text(encoding="utf-8")
+        shown = re.findall(r"(?m)^ +([\d.]+) +([\d.]+) % +([\d.]+) % +([\d.]+) % +\d+ % +(fir|moments)( +<-)?$", page)
+        self.assertGreaterEqual(len(shown), 5)
+        for window, noise, perturbation, error, engine, arrow in shown:
+            with self.subTest(window=window):
+                trial = next(t for t in answer["curve"] if abs(t["window_s"] - float(window)) < 1e-6)
+                for text, share in ((noise, trial["noise"]), (perturbation, trial["perturbation"]), (error, trial["error"])):
+                    self.assertAlmostEqual(100 * share, float(text), delta=0.51 * 10**-len(text.partition(".")[2]))
+                self.assertEqual(engine, trial["engine"])
+                self.assertEqual(bool(arrow), trial["window_s"] == answer["recommended"]["window_s"])
 
     def test_missing_excitation(self):
         text = (SOURCE / "models" / "pmsm_electrical.toml").read_text().replace("period = 1e-3", "period = 1e-4")

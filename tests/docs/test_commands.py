@@ -7,14 +7,16 @@ import subprocess
 import tempfile
 import unittest
 
-from environment import ALGEST, CXX, SOURCE
+from environment import ALGEST, BUILD, CXX, SOURCE
 
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", SOURCE / "CHANGELOG.md"] + sorted((SOURCE / "docs").glob("*.md"))
-# `make test` is what runs this test; a clean root runs both (tests/clean_root/prove).
-INSTEAD = {"make demo": "bash examples/demo/run build/algest", "make test": "true"}
+# `make test` is what runs this test, behind `make`; a clean root runs them (tests/clean_root/prove).
+INSTEAD = {"make demo": "bash examples/demo/run build/algest", "make test": "true", "make": "true",
+           "cmake --install build --prefix build/installed": f"cmake --install {BUILD} --prefix build/installed"}
 
 
 def blocks(page, language):
+    """Fenced blocks of a language; of "sh target" those that need a cross compiler."""
     return re.findall(r"```%s\n(.*?)```" % language, page.read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
@@ -22,25 +24,59 @@ class Documentation(unittest.TestCase):
     def setUp(self):
         self.root = tempfile.mkdtemp(prefix="algest-docs-")
         self.addCleanup(shutil.rmtree, self.root)
-        for folder in ("models", "examples", "runtime", "generated"):
+        for folder in ("models", "examples", "runtime", "generated", "tests"):
             os.symlink(SOURCE / folder, os.path.join(self.root, folder))
         os.mkdir(os.path.join(self.root, "build"))
         os.symlink(ALGEST, os.path.join(self.root, "build", "algest"))
 
     def run_line(self, line):
-        return subprocess.run(INSTEAD.get(line, line), shell=True, cwd=self.root, text=True,
+        path = f"{self.root}/build:{os.environ['PATH']}"   # help says `algest`
+        return subprocess.run(INSTEAD.get(line, line), shell=True, cwd=self.root, text=True, env={**os.environ, "PATH": path},
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
 
+    def runs(self, page, language):
+        """Runs the commands of a page in their order; how many there are."""
+        lines = [line for block in blocks(page, language) for line in block.strip().splitlines()]
+        for line in lines:
+            with self.subTest(page=page.name, command=line):
+                done = self.run_line(line)
+                self.assertEqual(done.returncode, 0, done.stdout)
+        return len(lines)
+
     def test_every_command_runs(self):
-        count = 0
-        for page in PAGES:
-            for block in blocks(page, "sh"):
-                for line in block.strip().splitlines():
-                    with self.subTest(page=page.name, command=line):
-                        done = self.run_line(line)
-                        self.assertEqual(done.returncode, 0, done.stdout)
-                        count += 1
-        self.assertGreater(count, 10, "the pages lost their commands")
+        counts = {page.name: self.runs(page, "sh") for page in PAGES}
+        self.assertGreater(counts["README.md"], 10, "the page lost its commands")
+
+    def test_five_commands_to_a_project_of_your_own(self):
+        """On a machine with a cross compiler the README's commands for a controller too."""
+        block = next(b for b in blocks(PAGES[0], "sh") if "your_project" in b)
+        self.assertEqual(len(block.strip().splitlines()), 5)
+        for line in block.strip().splitlines():
+            done = self.run_line(line)
+            self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn(re.search(r"It prints `(.*?)`", PAGES[0].read_text(encoding="utf-8"))[1], done.stdout)
+        if not shutil.which("arm-none-eabi-g++"):
+            self.skipTest("no arm-none-eabi-g++ (.ci/install target)")
+        self.assertEqual(self.runs(PAGES[0], "sh target"), 2)
+        attributes = subprocess.run(["arm-none-eabi-readelf", "-A", "build/your_project/m7/controller"], cwd=self.root, text=True, capture_output=True, check=True).stdout
+        self.assertIn("Tag_CPU_arch: v7E-M", attributes)
+
+    def test_the_examples_of_every_help_run(self):
+        """In the project's folder, after `make demo`, of which the recording is made here."""
+        os.mkdir(os.path.join(self.root, "build", "demo"))
+        done = self.run_line(f"{CXX} -std=c++17 -O2 examples/demo/simulate_motor.cpp -o build/simulate_motor && build/simulate_motor 1 build/demo/motor.csv build/hidden.txt")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        shown = self.run_line("algest --help").stdout
+        commands = re.findall(r"(?m)^  ([a-z]+) {2,}[A-Z]", shown)
+        self.assertGreaterEqual(len(commands), 8)
+        for words in ["", *commands]:
+            shown = self.run_line(f"algest {words} --help").stdout
+            examples = re.findall(r"(?m)^  (algest [a-z]+.*)$", shown)
+            self.assertGreaterEqual(len(examples), 2, shown)
+            for example in examples:
+                with self.subTest(example=example):
+                    done = self.run_line(example)
+                    self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_the_demo_is_what_make_runs(self):
         makefile = (SOURCE / "Makefile").read_text(encoding="utf-8")

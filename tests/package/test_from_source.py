@@ -3,15 +3,14 @@
 import tempfile
 import unittest
 
-from consumers import build, copy_consumer
-from environment import ALGEST, CXX, SOURCE, run
+from consumers import build, copy_consumer, take_from_source
+from environment import ALGEST, CXX, run
 
 
 class FromSource(unittest.TestCase):
     def test_consumer_builds_and_runs(self):
         with tempfile.TemporaryDirectory() as folder:
-            built = build(copy_consumer(folder), f"-DALGEST_FOLDER={SOURCE}", f"-DALGEST_EXECUTABLE={ALGEST}",
-                          f"-DCMAKE_CXX_COMPILER={CXX}")
+            built = build(take_from_source(copy_consumer(folder)), f"-DALGEST_EXECUTABLE={ALGEST}", f"-DCMAKE_CXX_COMPILER={CXX}")
             run(built / "controller")
 
 

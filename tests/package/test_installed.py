@@ -51,7 +51,7 @@ class Installed(unittest.TestCase):
 
     def test_a_copied_example_is_a_project_of_its_own(self):
         install(self.folder / "prefix", "runtime", "host")
-        examples = sorted(file.parent for file in (SOURCE / "examples").glob("*/CMakeLists.txt"))
+        examples = sorted(file.parent for file in (SOURCE / "examples").glob("*/CMakeLists.txt") if file.parent.name != "your_project")   # which has its model in it
         self.assertGreaterEqual(len(examples), 3)
         for example in examples:
             with self.subTest(example=example.name):
@@ -61,7 +61,7 @@ class Installed(unittest.TestCase):
                 self.assertTrue(models)
                 for model in models:
                     shutil.copy(model, copied)
-                folder = build(copied, f"-DCMAKE_PREFIX_PATH={self.folder / 'prefix'}", f"-DCMAKE_CXX_COMPILER={CXX}")
+                folder = build(copied, f"-DCMAKE_PREFIX_PATH={self.folder / 'prefix'}", f"-DCMAKE_CXX_COMPILER={CXX}", flags="")   # Boost.Odeint of the simulated machines throws
                 self.assertTrue((folder / f"{example.name}_example").is_file())
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from environment import ALGEST, SOURCE, run, skip
 
 sys.path.append(str(SOURCE / "tests/package"))
-from consumers import build, copy_consumer, install  # noqa: E402
+from consumers import build, copy_consumer, install, take_from_source  # noqa: E402
 
 if not shutil.which("arm-none-eabi-g++"):
     skip("no arm-none-eabi-g++ (.ci/install target)")
@@ -22,17 +22,17 @@ class CrossPackage(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = Path(scratch.name)
 
-    def check(self, *options):
-        folder = build(copy_consumer(self.folder), TOOLCHAIN, f"-DALGEST_EXECUTABLE={ALGEST}", *options)
+    def check(self, consumer, *options):
+        folder = build(consumer, TOOLCHAIN, f"-DALGEST_EXECUTABLE={ALGEST}", *options)
         self.assertIn("Tag_CPU_arch: v7E-M", run("arm-none-eabi-readelf", "-A", folder / "controller"))
 
     def test_installed(self):
         install(self.folder / "prefix", "runtime", "host")
         (self.folder / "prefix/bin/algest").unlink()  # the one that ALGEST_EXECUTABLE names must do
-        self.check(f"-DCMAKE_PREFIX_PATH={self.folder}/prefix")
+        self.check(copy_consumer(self.folder), f"-DCMAKE_PREFIX_PATH={self.folder}/prefix")
 
     def test_from_source(self):
-        self.check(f"-DALGEST_FOLDER={SOURCE}")
+        self.check(take_from_source(copy_consumer(self.folder)))
 
 
 if __name__ == "__main__":
