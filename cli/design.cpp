@@ -58,8 +58,18 @@ std::string numbers(const std::vector<int>& of) {
     return out;
 }
 
-std::string recommendation_text(const model::Model& model, const lab::Trial& t) {
-    std::string out = fmt::format("\nrecommended: window = {:.6g}, engine = \"{}\" ({} multiply-adds a sample), error {}\n", t.window_s, t.engine.engine, t.engine.multiply_adds, percent(t.error));
+/// The table is of the model as it is: what it says of the recommended window, where kappa or rows are to be others.
+std::string beside_the_table(const lab::Design& design) {
+    const lab::Trial& best = *design.recommended;
+    for (const lab::Trial& t : design.curve) {
+        if (t.window_s == best.window_s && (t.kappa != best.kappa || t.rows != best.rows)) return fmt::format("; with the model's own kappa and rows {}", percent(t.error));
+    }
+    return "";
+}
+
+std::string recommendation_text(const model::Model& model, const lab::Design& design) {
+    const lab::Trial& t = *design.recommended;
+    std::string out = fmt::format("\nrecommended: window = {:.6g}, engine = \"{}\" ({} multiply-adds a sample), error {}{}\n", t.window_s, t.engine.engine, t.engine.multiply_adds, percent(t.error), beside_the_table(design));
     for (std::size_t e = 0; e < model.equations.size(); ++e) {
         if (!t.rows[e].empty()) out += fmt::format("  {}: kappa = {}, rows = [{}]\n", model.equations[e].name, t.kappa[e], numbers(t.rows[e]));
     }
@@ -77,7 +87,7 @@ std::string reference_text(const model::Model& model, const lab::Design& design)
 std::string design_text(const model::Model& model, const DesignOptions& options, const lab::Design& design) {
     std::string out = design.curve.empty() ? "" : curve_text(design);
     if (design.recommended) out += reference_text(model, design);
-    out += design.recommended ? recommendation_text(model, *design.recommended) : "no window gives an estimate on this recording\n";
+    out += design.recommended ? recommendation_text(model, design) : "no window gives an estimate on this recording\n";
     if (!design.reached && design.recommended) out += fmt::format("the accuracy {} is out of reach\n", percent(*options.accuracy));
     for (const std::string& text : design.missing) out += "missing: " + text + "\n";
     return out;

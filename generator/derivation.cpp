@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "generator/annihilator.hpp"
 #include "generator/discrete_derivation.hpp"
@@ -133,6 +135,15 @@ std::string annihilator_text(const plan::Equation& e) {
     return "Pi = d^" + order + "/ds^" + order + s;
 }
 
+/// A power of s in front of something; nothing where it is 1.
+std::string power_tex(int power) { return power == 0 ? "" : power == 1 ? "s\\, " : "s^{" + std::to_string(power) + "}\\, "; }
+
+std::string annihilator_tex(const plan::Equation& e) {
+    const std::string order = annihilator_order(e);
+    const std::string d = order == "1" ? "\\frac{d}{ds}" : "\\frac{d^{" + order + "}}{ds^{" + order + "}}";
+    return d + (e.kappa == 0 ? "" : e.kappa == 1 ? "\\, s" : "\\, s^{" + std::to_string(e.kappa) + "}");
+}
+
 Rational window(const Plan& plan) { return plan.steady ? exact::from_text(plan.period_text) * plan.steady->block : exact::from_text(plan.period_text) * plan.decimate * plan.intervals; }
 
 Data common(const Plan& plan) {
@@ -165,7 +176,7 @@ Data equations_data(const Plan& plan) {
         q.set("ode_tex", sides ? formula::latex(sides->left) + " = " + formula::latex(sides->right) : e.ode);
         q.set("n", std::to_string(e.n));
         q.set("kappa", std::to_string(e.kappa));
-        q.set("order", annihilator_order(e));
+        q.set("annihilator_tex", annihilator_tex(e));
         q.set("way", e.divided ? "Divided by the leading coefficient " + e.leading + "." : std::string("Used as written: it is linear in the unknowns."));
         q.set("late", e.delayed && plan.functional == plan::Functional::annihilator);
         q.set("annihilator", annihilator_text(e));
@@ -185,7 +196,7 @@ Data equations_data(const Plan& plan) {
                 Data l;
                 l.set("i", std::to_string(i) + (a.p == 0 ? "" : ", p = " + std::to_string(a.p)));
                 l.set("pi_tex", a.p == 0 ? std::string("\\Pi") : "\\Pi_{" + std::to_string(a.p) + "}");
-                l.set("power_tex", std::to_string(i));
+                l.set("power_tex", power_tex(static_cast<int>(i)));
                 l.set("expansion", expansion(a.leibniz[i]));
                 l.set("expansion_tex", expansion_tex(a.leibniz[i]));
                 leibniz.push_back(l);
@@ -231,9 +242,12 @@ Data parameters_data(const Plan& plan) {
     return listed(parameters);
 }
 
-Data kernels_data(const Plan& plan) {
+/// One kernel has a table for each hold; where a reader cannot see the tables' names, `once` leaves out what would be said again.
+Data kernels_data(const Plan& plan, bool once) {
     DataList kernels;
+    std::set<std::tuple<int, int, int, int, int, std::vector<std::string>>> said;
     for (const plan::Table& t : plan.tables) {
+        if (once && !said.emplace(t.derivative, t.p, t.perturbation, t.n, t.kappa, t.kernel).second) continue;
         Data d;
         d.set("kernel_name", t.name);
         d.set("time_form", time_form(plan, t));
@@ -311,7 +325,7 @@ std::string derivation_text(const Plan& plan) {
     }
     d.set("noise", listed(noise));
     d.set("uncertain", plan.uncertain());
-    d.set("kernels", kernels_data(plan));
+    d.set("kernels", kernels_data(plan, false));
     DataList stages;
     for (const std::string& text : elimination_stages(plan)) {
         Data stage;
@@ -377,7 +391,7 @@ std::string derivation_latex(const Plan& plan) {
         rows.push_back(q);
     }
     d.set("rows", listed(rows));
-    d.set("kernels", kernels_data(plan));
+    d.set("kernels", kernels_data(plan, true));
     return render("report/derivation.tex.mustache", d);
 }
 

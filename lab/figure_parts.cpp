@@ -22,10 +22,11 @@ void Extent::take(const std::vector<double>& values) {
     for (const double v : values) take(v);
 }
 
-Interval Extent::widened(double share) const {
+Interval Extent::widened(double share, double least) const {
     if (empty()) return {-1, 1};
     const double size = std::max(std::abs(low), std::abs(high));
-    const double room = span() > 1e-9 * size ? share * span() : size > 0 ? 0.1 * size : 1;
+    const double air = span() > 1e-9 * size ? share * span() : size > 0 ? 0.1 * size : 1;
+    const double room = std::max(air, (least * size - span()) / 2);
     return {low - room, high + room};
 }
 

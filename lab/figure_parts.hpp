@@ -31,8 +31,9 @@ struct Extent {
     void take(const std::vector<double>& values);
     bool empty() const { return !(low <= high); }
     double span() const { return empty() ? 0 : high - low; }
-    /// With some air, a share of the span; of any size where all values are the same.
-    Interval widened(double share) const;
+    /// With some air, a share of the span; at least `least` of the largest value from end to end, so that the numbers beside an axis stay short.
+    /// Where all values are the same: of any size.
+    Interval widened(double share, double least = 0) const;
 };
 
 /// Takes `values`, but lets them widen the extent by no more than `most` on each side: a run that leaves must not flatten the rest.

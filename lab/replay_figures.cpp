@@ -18,6 +18,7 @@ constexpr std::size_t status_columns = 400;    ///< of the tints
 constexpr double narrowest_tint = 0.005;       ///< of the axis: one rejected sample is to be seen
 constexpr double estimates_beyond = 0.02;      ///< share of the estimates that may lie beyond the axis, on each side
 constexpr double intervals_beyond = 0.1;       ///< and of their intervals
+constexpr double finest_axis = 1e-3;           ///< of the value: numbers with more digits run into the axis's label, and no controller asks for them
 
 /// What of several statuses a reader must see.
 int weight(Status status) {
@@ -115,7 +116,7 @@ std::optional<Figure> estimate_figure(const plan::Plan& plan, const Replay& repl
     take_most(extent, interval.low, intervals_beyond);
     take_most(extent, interval.high, intervals_beyond);
     extent.take(values.back());
-    const Interval y = extent.widened(0.12);
+    const Interval y = extent.widened(0.12, finest_axis);
     clip(interval, y);
     const plan::Parameter& named = plan.parameters[parameter];
     panel.y = {named.name, named.unit, y.from, y.to, true};
@@ -135,7 +136,7 @@ std::optional<Figure> condition_figure(const Replay& replay) {
     }
     if (extent.empty()) return std::nullopt;
     Panel panel = panel_over_time(replay);
-    const Interval y = extent.widened(0.08);
+    const Interval y = extent.widened(0.08, finest_axis);
     panel.y = {"log10(condition)", "1", y.from, y.to, true};
     draw_line(panel, logarithm, "condition", colour::after, 1.5);
     return figure_of("condition", std::move(panel));

@@ -31,7 +31,8 @@ const figures = [...document.querySelectorAll('figure')].map(figure => {
 const page = document.documentElement;
 const out = document.createElement('pre');
 out.id = 'measured';
-out.textContent = JSON.stringify({figures, width: page.scrollWidth, shown: page.clientWidth, height: page.scrollHeight});
+const cut = [...document.querySelectorAll('#command pre')].some(e => e.scrollWidth > e.clientWidth);
+out.textContent = JSON.stringify({figures, cut, width: page.scrollWidth, shown: page.clientWidth, height: page.scrollHeight});
 document.body.append(out);
 </script>"""
 
@@ -63,6 +64,8 @@ def faults(page, plain, width=1100):
     sizes = measured(page, width)
     if sizes["width"] > sizes["shown"]:
         found.append(f"the page is {sizes['width']} px wide where {sizes['shown']} are shown")
+    if sizes["cut"]:
+        found.append("the command is cut")
     for number, figure in enumerate(sizes["figures"], 1):
         texts = figure["texts"]
         for one, other in itertools.combinations(texts, 2):

@@ -51,6 +51,14 @@ class Reports(CommandLine):
         screenshot(page, PICTURES / f"{command}.png")
         return text
 
+    def test_a_long_command_is_not_cut(self):
+        folder = self.folder / ("a_folder_of_some_depth/" * 5)
+        folder.mkdir(parents=True)
+        for command in ("replay", "simulate"):
+            self.algest(command, "rl.toml", "coil.csv", "-o", folder / "values.csv", "--report", folder / "page.html")
+            for width in (1100, 500):
+                self.assertEqual(faults(folder / "page.html", PLAIN, width), [])
+
     def test_replay(self):
         page, said = self.page("replay", "limited.toml", "holes.csv")
         self.assertIn("wrote page.html", said)

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+from pathlib import Path
 
 from environment import ALGEST, BUILD, CXX, SOURCE
 
@@ -18,6 +19,14 @@ INSTEAD = {"make demo": "bash examples/demo/run build/algest", "make test": "tru
 def blocks(page, language):
     """Fenced blocks of a language; of "sh target" those that need a cross compiler."""
     return re.findall(r"```%s\n(.*?)```" % language, page.read_text(encoding="utf-8"), flags=re.DOTALL)
+
+
+# The pictures of docs/, and which command of the pages draws each (tests/docs/test_pictures.py looks at them).
+PICTURES = {"positioning_axis.svg": "demo/positioning_axis.svg", "gap.svg": "demo/gap.svg", "pmsm_drive.svg": "pmsm_drive/figure_4_velocity.svg",
+            "magnetic_bearing.svg": "magnetic_bearing/figure_10_tracking_z.svg", "drive_train.svg": "drive_train/figure_7_closed_loop.svg",
+            "tutorial_estimates.svg": "tutorial/tutorial_estimates.svg", "tutorial_speed.svg": "tutorial/tutorial_speed.svg"}
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+ROUNDING = 1.0   # px: another compiler's or library's last bits may move a point that far, no further
 
 
 class Documentation(unittest.TestCase):
@@ -35,17 +44,41 @@ class Documentation(unittest.TestCase):
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
 
     def runs(self, page, language):
-        """Runs the commands of a page in their order; how many there are."""
-        lines = [line for block in blocks(page, language) for line in block.strip().splitlines()]
-        for line in lines:
-            with self.subTest(page=page.name, command=line):
-                done = self.run_line(line)
-                self.assertEqual(done.returncode, 0, done.stdout)
-        return len(lines)
+        """Runs the commands of a page in their order; how many there are. What stands in a block of plain text behind them is what they print."""
+        count, printed = 0, ""
+        for kind, block in re.findall(rf"```({language}|text)\n(.*?)```", page.read_text(encoding="utf-8"), flags=re.DOTALL):
+            if kind == "text":
+                self.shows(page, block, printed)
+                continue
+            printed = ""
+            for line in block.strip().splitlines():
+                with self.subTest(page=page.name, command=line):
+                    done = self.run_line(line)
+                    self.assertEqual(done.returncode, 0, done.stdout)
+                    printed += done.stdout
+                    count += 1
+        return count
+
+    def shows(self, page, block, printed):
+        """Every line of the block begins one that was printed, in this order; spaces and lines between do not count."""
+        lines = iter([" ".join(line.split()) for line in printed.splitlines()])
+        for line in block.strip().splitlines():
+            words = " ".join(line.split())
+            with self.subTest(page=page.name, shown=words):
+                self.assertTrue(words == "..." or any(line.startswith(words) for line in lines), printed)
 
     def test_every_command_runs(self):
         counts = {page.name: self.runs(page, "sh") for page in PAGES}
         self.assertGreater(counts["README.md"], 10, "the page lost its commands")
+        self.pictures_are_what_the_commands_draw()
+
+    def pictures_are_what_the_commands_draw(self):
+        self.assertEqual(set(PICTURES), {file.name for file in (SOURCE / "docs").glob("*.svg")} - {"architecture.svg"})
+        for name, drawn in PICTURES.items():
+            with self.subTest(picture=name):
+                kept, fresh = (file.read_text(encoding="utf-8") for file in (SOURCE / "docs" / name, Path(self.root) / "build" / drawn))
+                self.assertEqual(NUMBER.split(kept), NUMBER.split(fresh), f"copy build/{drawn} to docs/{name}, and look at it")
+                self.assertLessEqual(max(abs(float(a) - float(b)) for a, b in zip(NUMBER.findall(kept), NUMBER.findall(fresh))), ROUNDING)
 
     def test_five_commands_to_a_project_of_your_own(self):
         """On a machine with a cross compiler the README's commands for a controller too."""
@@ -102,6 +135,10 @@ class Documentation(unittest.TestCase):
                                "-I", SOURCE / "runtime" / "include", "-I", SOURCE / "generated", source],
                               text=True, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_the_tutorial_shows_its_model(self):
+        model = (SOURCE / "examples" / "demo" / "motor.toml").read_text(encoding="utf-8")
+        self.assertEqual(blocks(SOURCE / "docs" / "tutorial.md", "toml"), ["".join(line for line in model.splitlines(keepends=True) if not line.startswith("#"))])
 
     def test_links_lead_somewhere(self):
         for page in PAGES:

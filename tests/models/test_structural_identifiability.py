@@ -35,9 +35,9 @@ PUBLISHED = {
     "catenary, leak at the input": (CONSTRAINED, "x1 x2 x3 u", "k01 k12 k21 k23 k32", [
         "der(x1) = -(k01 + k21)*x1 + k12*x2 + u", "der(x2) = k21*x1 - (k12 + k32)*x2 + k23*x3", "der(x3) = k32*x2 - k23*x3"], "x2,x3",
         {"k01": 1, "k12": 1, "k21": 1, "k23": 1, "k32": 1}, []),
-    "flip-flop absorption": ("Godfrey, Fitch 1984, J. Pharmacokinet. Biopharm. 12:193: absorption and elimination change places", "x1 x2 y u", "ka ke V", [
+    "flip-flop absorption": ("Bateman's function; Garrett 1994, J. Pharmacokinet. Biopharm. 22:103: absorption and elimination may change places, with another volume", "x1 x2 y u", "ka ke V", [
         "der(x1) = -ka*x1 + u", "der(x2) = ka*x1 - ke*x2", "y = x2/V"], "x1,x2", {"ka": 2, "ke": 2, "V": 2}, []),
-    "products of states": ("Lecourtier, Lamnabhi-Lagarrigue, Walter 1987, ACC; as in the docs of StructuralIdentifiability.jl: p1 + p3, p1*p3 and p2*p4 are identifiable",
+    "products of states": ("Lecourtier, Lamnabhi-Lagarrigue, Walter 1987, CDC, p. 2144; as in the docs of StructuralIdentifiability.jl: p1 + p3, p1*p3 and p2*p4 are identifiable",
                            "x1 x2 x3 u", "p1 p2 p3 p4", ["der(x1) = -p1*x1 + p2*u", "der(x2) = -p3*x2 + p4*u", "der(x3) = -(p1 + p3)*x3 + (p4*x1 + p2*x2)*u"], "x1,x2",
                            {"p1": 2, "p2": 0, "p3": 2, "p4": 0}, ["p2*p4"]),
     "square of a hidden state": ("Ljung, Glad 1994, Automatica 30:265: the input makes theta globally identifiable", "x1 x2 u", "theta", [

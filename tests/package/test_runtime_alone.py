@@ -29,6 +29,14 @@ class RuntimeAlone(unittest.TestCase):
                     source = f'#include "algest/{header.name}"\n'
                     run("sh", "-c", 'printf %s "$0" | "$@" -', source, compiler, *FLAGS, f"-I{SOURCE}/runtime/include")
 
+    def test_newer_standards(self):
+        headers = sorted((SOURCE / "runtime/include/algest").glob("*.hpp"))
+        source = "".join(f'#include "algest/{header.name}"\n' for header in headers)
+        for standard in ("c++20", "c++2b"):
+            for compiler in ("g++", "clang++"):
+                with self.subTest(standard=standard, compiler=compiler):
+                    run("sh", "-c", 'printf %s "$0" | "$@" -', source, compiler, *FLAGS, f"-std={standard}", f"-I{SOURCE}/runtime/include")
+
     def test_fast_math_is_refused(self):
         for flag in ("-ffast-math", "-ffinite-math-only"):
             for compiler in ("g++", "clang++"):
