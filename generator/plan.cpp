@@ -88,7 +88,7 @@ private:
         if (!model_.period) diagnostics_.error(model_.path, model_.sampling_at, "no sampling period", "add [sampling] period = 1e-3, in seconds");
         if (!model_.window && model_.estimator.has_window() && !pooled_samples) {
             diagnostics_.error(model_.path, model_.sampling_at, "no window: an estimator needs one",
-                               "add [sampling] window = 0.2, in seconds; long against noise, short against what changes");
+                               "add [sampling] window = " + exact::decimal(100 * model_.period.value_or(Rational(1) / 1000)) + ", in seconds: long against noise, short against what changes; `algest design` finds one on a recording");
         }
         if (model_.parameters.empty() && !model_.discrete) diagnostics_.error(model_.path, {1, 1}, "nothing to estimate: no unknowns", "declare [parameters], or unknowns of [transfer]");
         return !diagnostics_.has_errors();

@@ -120,14 +120,14 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
     for (const EffectParameter& p : effect.parameters) {
         const std::string name = names.fresh(p.name);
         texts.rename_everywhere(p.name, name);
-        NewName added{name, units::tidy(filled(p.unit, role_units)), 0.0, binding.in_output ? std::nullopt : p.min, false};
+        NewName added{name, units::tidy(filled_unit(p.unit, role_units)), 0.0, binding.in_output ? std::nullopt : p.min, false};
         added.neutral = filled(p.neutral, binding.roles[0]);
         out.names.push_back(std::move(added));
     }
     for (const EffectScan& s : effect.scans) {
         const std::string name = names.fresh(s.name);
         texts.rename_everywhere(s.name, name);
-        NewName added{name, units::tidy(filled(s.unit, role_units)), scan, s.fitted ? std::optional(0.0) : std::nullopt, !s.fitted};
+        NewName added{name, units::tidy(filled_unit(s.unit, role_units)), scan, s.fitted ? std::optional(0.0) : std::nullopt, !s.fitted};
         added.scanned = true;
         out.names.push_back(std::move(added));
     }

@@ -123,7 +123,7 @@ bool bind_edits(Binding& b, const model::Model& model, const std::vector<bool>& 
     touched.into(b);
     for (const EffectState& state : effect.states) {
         EffectState bound = state;
-        bound.unit = filled(state.unit, b.role_units);
+        bound.unit = filled_unit(state.unit, b.role_units);
         bound.ode = filled(state.ode, b.roles[0]);
         b.states.push_back({std::move(bound)});
     }

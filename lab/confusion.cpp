@@ -14,8 +14,9 @@ std::string regressor(const plan::Plan& plan, Eigen::Index unknown) {
         for (const plan::RowTerm& term : row.terms) {
             if (term.lumped != unknown) continue;
             const std::string signal = term.signal < 0 ? "1" : plan.window_signals[static_cast<std::size_t>(term.signal)].text;
-            const std::string factor = term.coefficient == "1" ? "" : term.coefficient == "-1" ? "-" : term.coefficient + "*";
-            out += (out.empty() ? "" : " + ") + factor + signal;
+            const bool negative = term.coefficient.front() == '-';
+            const std::string size = term.coefficient.substr(negative ? 1 : 0);
+            out += (negative ? out.empty() ? "-" : " - " : out.empty() ? "" : " + ") + (size == "1" ? signal : size + "*" + signal);
         }
         if (!out.empty()) break;
     }
@@ -25,6 +26,13 @@ std::string regressor(const plan::Plan& plan, Eigen::Index unknown) {
 namespace {
 
 using Eigen::MatrixXd;
+
+/// A single signal with a minus is that signal, and its factor takes the sign.
+std::string without_its_sign(const std::string& regressor, double& factor) {
+    if (regressor.front() != '-' || regressor.find(' ') != std::string::npos) return regressor;
+    factor = -factor;
+    return regressor.substr(1);
+}
 
 std::string plus(double factor, const std::string& name) {
     const std::string size = fmt::format("{:.4g}", std::abs(factor));
@@ -66,8 +74,11 @@ Confusion confusion(const plan::Plan& plan, const Decomposition& d, const Matrix
         const double ratio = -direction(a) * d.norm(b) / (direction(b) * d.norm(a));   // of the second column to the first
         const double value = d.solution(a) + ratio * d.solution(b);
         const double sd = std::sqrt(std::max(0.0, of_solution(a, a) + 2.0 * ratio * of_solution(a, b) + ratio * ratio * of_solution(b, b)));
+        double times = ratio;
+        const std::string first = without_its_sign(regressor(plan, a), times);
+        const std::string second = without_its_sign(regressor(plan, b), times);
         out.text = fmt::format("{} and {} {}: {} is {:.3g} times {} {}; determined is {}{} = {:.4g}, sd {:.2g}", out.unknowns[0], out.unknowns[1], apart,
-                               regressor(plan, b), ratio, regressor(plan, a), throughout, out.unknowns[0], plus(ratio, out.unknowns[1]), value, sd);
+                               second, times, first, throughout, out.unknowns[0], plus(ratio, out.unknowns[1]), value, sd);
     } else {
         std::string names;
         std::string sum;

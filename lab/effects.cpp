@@ -21,15 +21,22 @@ using units::Unit;
 
 namespace {
 
-/// The first of the effect's units that an equation fits, or the equation's own where that is a multiple of it; nullopt: none fits. An
-/// effect that names none fits every equation.
+/// The same unit, not another multiple of it.
+bool is(const Unit& unit, const std::string& text) { return fits(unit, text) && std::abs(unit.factor_to(*Unit::parse(text)) - 1) < 1e-9; }
+
+/// The unit of an equation that the effect may enter, as a text that UDUNITS reads, multiples such as cm^3/s kept; empty: unknown, or the effect
+/// names none and fits every equation. Nullopt: it may not enter. A balance stays one when it is divided by its inertia, or written in amperes.
 std::optional<std::string> unit_that_fits(const Effect& effect, const model::Model& model, std::size_t equation) {
     if (effect.units.empty()) return "";
-    const Unit unit = model::unit_of_equation(model, model.equations[equation]);
-    const auto spelling = std::find_if(effect.units.begin(), effect.units.end(), [&](const std::string& u) { return fits(unit, u); });
-    if (spelling == effect.units.end()) return std::nullopt;
-    const bool multiple = unit.known() && std::abs(unit.factor_to(*Unit::parse(*spelling)) - 1) > 1e-9;
-    return multiple ? equation_unit(model, model.equations[equation]) : *spelling;
+    const model::Equation& e = model.equations[equation];
+    const Unit unit = model::unit_of_equation(model, e);
+    for (const std::string& u : effect.units) if (fits(unit, u)) return is(unit, u) ? u : equation_unit(model, e);
+    const std::string balance = balanced(model, e);
+    if (balance.empty() || std::find(effect.units.begin(), effect.units.end(), balance) == effect.units.end()) return std::nullopt;
+    const Moved own = moved(model, e);
+    const std::string& of_signal = model.signals[static_cast<std::size_t>(own.signal)].unit;
+    const std::string rate = of_signal.empty() ? "" : own.order == 1 ? "(" + of_signal + ")/s" : "(" + of_signal + ")/s^" + std::to_string(own.order);
+    return !unit.known() ? "" : is(unit, rate) ? rate : equation_unit(model, e);
 }
 
 /// Every combination of what may stand for the roles in an equation.

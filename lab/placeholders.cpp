@@ -11,4 +11,9 @@ std::string filled(std::string text, const std::map<std::string, std::string>& w
     return text;
 }
 
+std::string filled_unit(const std::string& text, const std::map<std::string, std::string>& with) {
+    for (const auto& [name, unit] : with) if (unit.empty() && text.find("{" + name + "}") != std::string::npos) return "";
+    return filled(text, with);
+}
+
 }  // namespace algest::lab

@@ -8,5 +8,7 @@ namespace algest::lab {
 
 /// The text with every {name} replaced by what stands beside the name; others stay.
 std::string filled(std::string text, const std::map<std::string, std::string>& with);
+/// The same of a unit: empty, which is unknown, where one that stands in it is.
+std::string filled_unit(const std::string& text, const std::map<std::string, std::string>& with);
 
 }  // namespace algest::lab

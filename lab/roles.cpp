@@ -17,6 +17,9 @@ using units::Unit;
 
 Unit unit_of(const model::Signal& signal) { return signal.unit.empty() ? Unit() : Unit::parse(signal.unit).value_or(Unit()); }
 
+/// What a sensor shows without saying of what: in volts, or without a unit.
+bool is_of_a_sensor(const Unit& unit) { return !unit.known() || fits(unit, "V"); }
+
 void find_highest(const formula::Formula& f, const model::Model& model, Moved& out) {
     if (formula::is_derivative(f)) {
         const int order = formula::derivative_order(f);
@@ -94,6 +97,20 @@ Moved moved(const model::Model& model, const model::Equation& e) {
     return out;
 }
 
+std::string balanced(const model::Model& model, const model::Equation& e) {
+    struct Motion {
+        int order;
+        const char* moved;
+        const char* balanced;
+    };
+    static const Motion motions[] = {{1, "rad/s", "N.m"}, {2, "rad", "N.m"}, {1, "m/s", "N"}, {2, "m", "N"}, {1, "A", "V"}, {1, "K", "W"}};
+    const Moved own = moved(model, e);
+    if (own.signal < 0) return "";
+    const Unit unit = unit_of(model.signals[static_cast<std::size_t>(own.signal)]);
+    for (const Motion& m : motions) if (m.order == own.order && fits(unit, m.moved)) return m.balanced;
+    return own.order == 2 && is_of_a_sensor(unit) ? "N" : "";
+}
+
 int integral_of(const model::Model& model, int speed) {
     for (const model::Equation& e : model.equations) {
         const auto is_rate = [&](const formula::Formula& a, const formula::Formula& b) {
@@ -133,19 +150,19 @@ std::vector<Filler> fillers(const std::string& kind, const model::Model& model, 
     std::vector<Filler> out = fillers_of_text(kind, model, model.equations[equation], signal);
     const Unit unit = unit_of(signal);
     const bool is_speed = own.order == 1 && (fits(unit, "rad/s") || fits(unit, "m/s"));
-    const bool is_position = own.order == 2 && (fits(unit, "rad") || fits(unit, "m"));
+    const bool is_position = own.order == 2 && (fits(unit, "rad") || fits(unit, "m") || is_of_a_sensor(unit));
     if ((kind == "sensor" || kind == "unsigned_sensor") && measured[static_cast<std::size_t>(own.signal)] && signal.scored) out.push_back({signal.name, signal.unit});
     if (kind == "own") out.push_back({signal.name, signal.unit});
     if (kind == "current" && fits(unit, "A")) out.push_back({signal.name, signal.unit});
     if (kind == "speed") {
         if (is_speed) out.push_back({signal.name, signal.unit});
-        if (is_position) out.push_back({"der(" + signal.name + ")", "(" + signal.unit + ")/s"});
+        if (is_position) out.push_back({"der(" + signal.name + ")", signal.unit.empty() ? "" : "(" + signal.unit + ")/s"});
     }
     if (kind == "angle" || kind == "position") {
         const int x = is_position ? own.signal : is_speed ? integral_of(model, own.signal) : -1;
         if (x >= 0) {
             const model::Signal& position = model.signals[static_cast<std::size_t>(x)];
-            if (kind == "position" || fits(unit_of(position), "rad")) out.push_back({position.name, position.unit.empty() ? "1" : position.unit});
+            if (kind == "position" || fits(unit_of(position), "rad")) out.push_back({position.name, position.unit});
         }
     }
     if (kind == "time") out.push_back({time_name(model), "s"});
@@ -156,7 +173,7 @@ std::vector<Filler> fillers(const std::string& kind, const model::Model& model, 
         if (kind == "any_speed" && static_cast<int>(s) != own.signal && (fits(u, "rad/s") || fits(u, "m/s"))) out.push_back({model.signals[s].name, model.signals[s].unit});
         if (kind == "actuator" && !moves && model.signals[s].column != time_column && stands_in(model.equations[equation], model.signals[s].name)) out.push_back({model.signals[s].name, model.signals[s].unit});
         if (kind == "drive" && static_cast<int>(s) != own.signal && (fits(u, "A") || fits(u, "N.m") || fits(u, "N")) && stands_in(model.equations[equation], model.signals[s].name)) out.push_back({model.signals[s].name, model.signals[s].unit});
-        if (kind == "input" && !moves) out.push_back({model.signals[s].name, model.signals[s].unit.empty() ? "1" : model.signals[s].unit});
+        if (kind == "input" && !moves) out.push_back({model.signals[s].name, model.signals[s].unit});
     }
     return out;
 }

@@ -16,6 +16,10 @@ struct Moved {
 };
 Moved moved(const model::Model& model, const model::Equation& equation);
 
+/// What an equation balances, told by what it moves, whatever it was divided by: N.m where it accelerates a rotation, N a translation (or
+/// what a sensor in volts, or of no unit, shows of a motion of second order), V where it drives a current, W where it heats; empty: nothing of these.
+std::string balanced(const model::Model& model, const model::Equation& equation);
+
 /// The signal x with an equation der(x) = speed; -1: there is none.
 int integral_of(const model::Model& model, int speed);
 

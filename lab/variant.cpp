@@ -146,7 +146,11 @@ std::optional<Variant> Workbench::prepare(const std::string& text, std::vector<A
     Diagnostics quiet;
     Diagnostics& said = amendments.empty() ? diagnostics : quiet;
     auto model = model::read_from_text(text, path_, false, said);
-    if (!model && !amendments.empty()) unwritten_.emplace(amendments.back().effect, quiet.has_errors() ? quiet.sorted().front().what : "");
+    if (!model && !amendments.empty()) {
+        const std::vector<Diagnostic> all = quiet.sorted();   // warnings among them
+        const auto error = std::find_if(all.begin(), all.end(), [](const Diagnostic& d) { return d.severity == Severity::error; });
+        unwritten_.emplace(amendments.back().effect, error == all.end() ? "" : error->what);
+    }
     if (!model) return std::nullopt;
     if (amendments.empty()) find_idle_kinematics(*model);
     const model::Model whole = *model;

@@ -103,14 +103,14 @@ TEST_CASE("roles: what stands for each kind in the equations of a motor") {
     CHECK(of("angle", motor(), 0) == Texts{});
     CHECK(of("any_speed", motor(), 0) == Texts{"w [rad/s]"});
     CHECK(of("any_speed", motor(), 1) == Texts{});              // its own is not any other
-    CHECK(of("input", motor(), 1) == Texts{"u [V]", "load [N.m]", "plain [1]"});
+    CHECK(of("input", motor(), 1) == Texts{"u [V]", "load [N.m]", "plain []"});
     CHECK(of("time", motor(), 1) == Texts{"t [s]"});
     CHECK(of("none of these", motor(), 1) == Texts{});
 }
 
 TEST_CASE("roles: a sensor that is not there stands for no input and no other speed, but a state may be its own") {
     const std::vector<bool> two = {true, true, false, false, false, true};   // u, i and plain
-    CHECK(of("input", motor(), 1, two) == Texts{"u [V]", "plain [1]"});
+    CHECK(of("input", motor(), 1, two) == Texts{"u [V]", "plain []"});
     CHECK(of("any_speed", motor(), 0, two) == Texts{});
     CHECK(of("speed", motor(), 1, two) == Texts{"w [rad/s]"});
     CHECK(of("angle", motor(), 1, two) == Texts{"th [rad]"});
@@ -184,6 +184,7 @@ TEST_CASE("roles: every kind that a file may name stands for something somewhere
         for (const model::Model* m : {&motor(), &cart(), &geared()}) for (std::size_t e = 0; e < m->equations.size(); ++e) {
             for (const lab::Filler& f : lab::fillers(kind.name, *m, e, std::vector<bool>(m->signals.size(), true))) {
                 found = true;
+                if (f.unit.empty()) continue;   // what has no unit fits any
                 const auto unit = units::Unit::parse(f.unit);
                 REQUIRE(unit);
                 // And its unit is one that the kind is said to have.
@@ -211,4 +212,25 @@ TEST_CASE("roles: units fit by dimension, and nothing fits the unknown") {
     CHECK_FALSE(lab::fits(unit("V"), "A"));
     CHECK_FALSE(lab::fits(units::Unit(), "A"));
     CHECK_FALSE(lab::fits(unit("A"), "no unit"));
+}
+
+TEST_CASE("what an equation balances is told by what it moves, whatever its unit") {
+    using lab::balanced;
+    CHECK(balanced(motor(), motor().equations[0]) == "V");
+    CHECK(balanced(motor(), motor().equations[1]) == "N.m");
+    CHECK(balanced(motor(), motor().equations[2]) == "");   // a kinematic tie is no balance
+    CHECK(balanced(motor(), motor().equations[3]) == "");   // nor is what moves nothing
+    CHECK(balanced(cart(), cart().equations[0]) == "N");
+    const model::Model plain = model_of(R"toml([signals]
+y = {}
+z = { unit = "V" }
+[parameters]
+p = {}
+[[equation]]
+ode = "der(y,2) = -p*y"
+[[equation]]
+ode = "der(z) = -p*z"
+)toml");
+    CHECK(balanced(plain, plain.equations[0]) == "N");
+    CHECK(balanced(plain, plain.equations[1]) == "");       // of first order volts may show anything
 }

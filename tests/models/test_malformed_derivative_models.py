@@ -110,7 +110,7 @@ class MalformedDerivative(ModelCase):
         constant = [(k * 0.001, 6, 2) for k in range(50)]
         code, out, err, _ = self.batch(MODEL, constant)
         self.assertEqual(code, 1, err)   # 1/L*6 - R/L*2 = 0 is all that it says
-        self.assertIn("not identifiable from this recording: 1/L and R/L cannot be told apart: i is -0.333 times -v throughout; determined is 1/L - 0.3333*R/L = 0", out)
+        self.assertIn("not identifiable from this recording: 1/L and R/L cannot be told apart: i is 0.333 times v throughout; determined is 1/L - 0.3333*R/L = 0", out)
         self.assertRegex(out, r"R +- +- +ohm")
 
         two = MODEL.replace("[estimator]", '[[equation]]\node = "v = R*i"\n[estimator]')   # linear as written: no division
