@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace algest::lab {
 
@@ -50,6 +51,7 @@ Course course_of(const plan::Operation& o, const std::vector<Course>& inputs, co
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& m) {
     constexpr int terms = 16;   // 0.5^16 / 16! < 1e-18
     const double norm = m.cwiseAbs().rowwise().sum().maxCoeff();
+    if (!std::isfinite(norm)) return Eigen::MatrixXd::Constant(m.rows(), m.cols(), std::numeric_limits<double>::quiet_NaN());   // a run of it diverges
     const int squarings = norm > 0.5 ? static_cast<int>(std::ceil(std::log2(norm / 0.5))) : 0;
     const Eigen::MatrixXd small = m / std::ldexp(1.0, squarings);
     Eigen::MatrixXd out = Eigen::MatrixXd::Identity(m.rows(), m.cols());

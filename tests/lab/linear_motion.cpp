@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <limits>
 
 TEST_CASE("linear motion: the step's matrices are those of an oscillator, slow and fast beside the period") {
     // A = w [0 1; -1 0]: phi1 and h phi2 are the integral of its rotation over h, and the integral of that.
@@ -22,4 +23,9 @@ TEST_CASE("linear motion: the step's matrices are those of an oscillator, slow a
         CHECK(h * step.phi2(0, 0) * w * w == Approx(1 - c).epsilon(0).margin(digits));
         CHECK(h * step.phi2(1, 0) * w * w == Approx(-(w * h - s)).epsilon(0).margin(digits));
     }
+}
+
+TEST_CASE("linear motion: rates that are no numbers give a step that is none") {
+    const auto step = algest::lab::linear_step(Eigen::MatrixXd::Constant(1, 1, std::numeric_limits<double>::infinity()), 0.01);
+    CHECK(std::isnan(step.phi1(0, 0)));
 }
