@@ -189,6 +189,9 @@ public:
     }
     double ns(const std::string& name, int intervals) const { return ns_.at(name + "/" + std::to_string(intervals)); }
     double ns(const std::string& name) const { return ns_.at(name + "/"); }
+    void print() const {
+        for (const auto& [name, ns] : ns_) fmt::print("{} {:.1f} ns\n", name, ns);
+    }
 
 private:
     std::map<std::string, double> ns_;
@@ -274,6 +277,11 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     Times times;
     benchmark::RunSpecifiedBenchmarks(&times);
+    const std::string filter = benchmark::GetBenchmarkFilter();
+    if (!filter.empty() && filter != "all") {   // ratios need all of them
+        times.print();
+        return 0;
+    }
     print_windows(times);
     print_motor(times, *plan);
 }

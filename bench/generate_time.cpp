@@ -26,6 +26,7 @@
 #include "generator/lumping.hpp"
 #include "generator/model.hpp"
 #include "generator/row_choice.hpp"
+#include "generator/row_functional.hpp"
 #include "generator/row_weight.hpp"
 #include "generator/units.hpp"
 #include "generator/wide_integer.hpp"
@@ -183,7 +184,8 @@ void time_model(int m, const std::string& algest, const fs::path& folder) {
               const std::vector<equation::OperatorForm> f = {*equation::operator_form(*model, model->equations[0], d)};
               const auto l = lumping::lump(*model, f, d);
               const auto r = generator::choose_rows(*model, *l, d);
-              (void)generator::row_weights(*model, f, *l, *r, d);
+              const auto functional = generator::row_functional(*model, f, plan::Scalar::float64);
+              (void)generator::row_weights(*model, f, *l, *r, *functional, d);
           }));
     std::vector<kernel::Coefficients> kernels;
     for (const plan::Table& t : plan->tables) kernels.push_back(annihilator::kernel(t.derivative, t.p, {t.n, t.kappa, t.form}));

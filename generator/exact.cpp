@@ -28,6 +28,13 @@ Integer integer_text(const std::string& digits) {
     return Integer(digits.empty() ? "0" : digits.c_str());
 }
 
+/// Nullopt unless both numbers of the fraction can be read again: a decimal with few digits and a large exponent has many.
+std::optional<Rational> of_readable_size(const Rational& value) {
+    static const Integer limit = cln::expt_pos(Integer(10), Integer(static_cast<unsigned long>(most_digits)));
+    if (cln::abs(cln::numerator(value)) >= limit || cln::denominator(value) >= limit) return std::nullopt;
+    return value;
+}
+
 std::optional<Rational> parse_decimal(std::string_view text) {
     std::size_t i = 0;
     bool negative = false;
@@ -64,7 +71,7 @@ std::optional<Rational> parse_decimal(std::string_view text) {
     const Integer ten_power = cln::expt_pos(Integer(10), Integer(std::abs(scale) == 0 ? 1 : std::abs(scale)));
     if (scale > 0) value = value * ten_power;
     if (scale < 0) value = value / ten_power;
-    return negative ? -value : value;
+    return of_readable_size(negative ? -value : value);
 }
 
 /// Rounds |numerator| / denominator to `digits` bits with smallest exponent `lowest` of the last bit; result = integer * 2^shift.
@@ -109,7 +116,7 @@ std::optional<Rational> parse(std::string_view text) {
     const auto above = parse_decimal(trim(text.substr(0, slash)));
     const auto below = parse_decimal(trim(text.substr(slash + 1)));
     if (!above || !below || cln::zerop(*below)) return std::nullopt;
-    return *above / *below;
+    return of_readable_size(*above / *below);
 }
 
 Rational from_double(double value) {

@@ -186,7 +186,7 @@ private:
         const auto value = exact::parse(text_.substr(start, at_ - start));
         if (!value) {
             fail(static_cast<int>(start), "not a number that can be read exactly",
-                 "write a decimal with at most 400 digits and an exponent within +-400");
+                 "write one with an exponent within +-400, and as a fraction of whole numbers with at most 400 digits each");
         }
         if (is_letter(peek())) fail(static_cast<int>(at_), "a name right after a number", "write * between them");
         return node(Kind::number, static_cast<int>(start), static_cast<int>(start), {}, {}, *value);

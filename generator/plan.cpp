@@ -78,6 +78,7 @@ private:
         if (model_.window) plan_.intervals = cln::cl_I_to_int(cln::numerator(*model_.window / *model_.period));
         plan_solver(model_, plan_);
         plan_discrete(model_, options_, plan_);
+        plan_.moments = moments(model_, options_.engine, plan_, diagnostics_);   // says that they will not do
         plan_.kept = kept_samples(plan_.solve, 0, false, false);
         if (!within_limits(model_, plan_, diagnostics_)) return std::nullopt;
         return std::move(plan_);

@@ -480,6 +480,7 @@ FORMULAS = [
     ("two parentheses", ode("der(x) = (a)▸(x) + b*u"), "an operator is missing before '('"),
     ("two points in a number", ode("der(x) = 1.5▸.2*a*x + b*u"), "unexpected '.'"),
     ("a point", ode("der(x) = a*x + b*u + ▸."), "not a number"),
+    ("fraction of 402 digits", ode("der(x) = a*x + b*u + ▸1.5e-400"), "at most 400 digits"),
     ("number of 401 digits", ode("der(x) = a*x + b*u + ▸0." + "1" * 401), "at most 400 digits"),
     ("number with a huge exponent", ode("der(x) = a*x + b*u + ▸1e401"), "within +-400"),
     ("closed too often", ode("der(x) = (a*x + b*u)▸)"), "')' without '('"),

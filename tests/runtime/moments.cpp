@@ -107,6 +107,43 @@ TEST_CASE("moments do not drift in a million samples, the textbook recursion doe
     CHECK_FALSE(off < 1e-3);   // (N/M)^d epsilon is 3 at N = 1e6
 }
 
+TEST_CASE("moments of a degree that the compiler knows are those of the loops that a controller runs, to the last bit") {
+    constexpr int intervals = 30, signals = 2;
+    for (int degree = 1; degree <= 10; ++degree) {
+        const auto count = static_cast<std::size_t>(degree) + 1;
+        const std::vector<unsigned char> degrees(signals, static_cast<unsigned char>(degree));
+        const MomentSet<double, double> set{degree, 1.0 / 64, {degrees.data(), signals}, {nullptr, 0}, {nullptr, 0}};
+        // Loops first, then what the processor of this test runs.
+        std::vector<double> accumulators[2], references[2], sizes[2], shifted[2];
+        MomentProgress progress[2];
+        for (int way = 0; way < 2; ++way) {
+            accumulators[way].resize(static_cast<std::size_t>(moment_accumulators<double>(signals, degree, false)));
+            references[way].resize(static_cast<std::size_t>(moment_references<double>(signals)));
+            sizes[way].resize(references[way].size());
+            restart_moments(progress[way]);
+            const MomentMemory<double, double> memory{accumulators[way].data(), references[way].data(), sizes[way].data(), &progress[way]};
+            std::vector<double> scratch(static_cast<std::size_t>(moment_scratch(signals, degree)));
+            for (int k = 0; k < 5 * intervals; ++k) {
+                const double sample[] = {moment_signal(k), 7.0 * moment_signal(k + 1)}, leaving[] = {moment_signal(k - intervals - 1), 7.0 * moment_signal(k - intervals)};
+                if (way == 0) detail::add_sample_of(degree, set, intervals, memory, sample, leaving, scratch.data());
+                else add_sample(set, intervals, memory, sample, leaving, scratch.data());
+            }
+            for (std::size_t at = 0; at < accumulators[way].size(); at += count) {
+                std::vector<double> moments(count);
+                const auto shift = [&](auto d) {
+                    detail::shifted_moments(d, 0.34375, &accumulators[way][at], moments.data());
+                    moments.push_back(detail::sum_of_products(&accumulators[way][at], moments.data(), d));
+                };
+                if (way == 0) shift(degree);
+                else detail::with_degree<double>(degree, shift);
+                shifted[way].insert(shifted[way].end(), moments.begin(), moments.end());
+            }
+        }
+        CHECK(accumulators[0] == accumulators[1]);
+        CHECK(shifted[0] == shifted[1]);
+    }
+}
+
 TEST_CASE("a sample that drowns all others, or overflows, has gone a window and a block later") {
     constexpr int degree = 6;
     for (const int intervals : {60, 61, 62, 63, 200}) {

@@ -52,7 +52,7 @@ inline void add_growing_sample(const MomentSet<S, double>& set, MomentMemory<S, 
         }
     }
     const S u = S(2 * newest - (size - 1)) / S(size);
-    detail::add_to_frame<false>(set, u, S(1), sample, memory.references, memory.sizes, scratch, moments);   // the sizes are those of frame 0
+    detail::add_to_frame<false>(set, set.degree, u, S(1), sample, memory.references, memory.sizes, scratch, moments);   // the sizes are those of frame 0
 }
 
 /// Evaluates all rows on the window since the start: as evaluate_moment_rows, with the factors of the full window. scratch: moment_scratch.
@@ -96,12 +96,12 @@ inline void evaluate_growing_rows(const GrowingSet& growing, const MomentSet<S, 
         const double of_reference = c * static_cast<double>(set.ends[f.table].of_one);
         value += h * detail::horner(growing.newest.data + f.table * count, count, h) * (static_cast<double>(newest_sample[f.signal]) - c);
         value += of_reference;
-        double size = std::abs(value) + std::abs(of_reference) + roundings * gain * static_cast<double>(memory.sizes[f.signal]);
+        double rounding_of = std::abs(value) + std::abs(of_reference) + roundings * gain * static_cast<double>(memory.sizes[f.signal]);
         for (int i = 0; i < growing.derivatives[f.table]; ++i) {
             value *= ratio;
-            size *= ratio;
+            rounding_of *= ratio;
         }
-        add_functional(rows, f, static_cast<S>(value), static_cast<S>(size), to);
+        add_functional(rows, f, static_cast<S>(value), static_cast<S>(rounding_of), to);
     }
     drop_rounding(rows, moment_rounding_part<S>(), to);
 }
