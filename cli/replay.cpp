@@ -12,6 +12,7 @@
 #include "generator/generate.hpp"
 #include "lab/discrete_system.hpp"
 #include "lab/replay_report.hpp"
+#include "lab/standstill.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {
@@ -83,6 +84,9 @@ int replay(const ReplayOptions& options) {
     if (!replay) return fail(diagnostics, options.json);
     if (const auto advice = lab::advice_on_domain(*plan, *replay)) diagnostics.note(options.model, *advice);
     const lab::ReplaySummary summary = lab::summarise(*replay);
+    if (summary.count[static_cast<std::size_t>(Status::ok)] > 0) {
+        if (const auto still = lab::standstill(*plan, *recording, *stretch)) diagnostics.note(options.recordings[0], *still);
+    }
     if (!write_outputs(options, *plan, *recording, *replay, summary, diagnostics)) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);
     for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);

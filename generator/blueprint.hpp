@@ -2,6 +2,7 @@
 // Plan -> the constant data of a runtime estimator: one construction for the emitter and for replay, so that both run the
 // same operations in the same order. No GiNaC.
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -73,6 +74,8 @@ struct BlueprintData {
     std::vector<int> noisy;   ///< inputs with noise
     std::vector<algest::NoiseChannel<S>> noise;
     std::vector<S> whiten_at;
+    std::vector<S> noise_floor;
+    std::vector<S> sizes;     ///< with a deviation limit: of the unknowns; else empty
     algest::LowPass<S> ratio;
     bool normalise;
     bool rows_published;
@@ -95,7 +98,9 @@ struct BlueprintData {
                 normalise,
                 elimination.view(),
                 rows_published,
-                shortest};
+                shortest,
+                {noise_floor.data(), static_cast<int>(noise_floor.size())},
+                {sizes.data(), static_cast<int>(sizes.size())}};
     }
 
 private:
@@ -170,6 +175,8 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
                           {},
                           {},
                           {},
+                          {},
+                          {},
                           plan.normalise,
                           plan.moments.has_value(),
                           plan.moments ? plan.moments->shortest : 0};
@@ -186,6 +193,10 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
     }
     if (plan.whiten) {
         for (const Lumped& u : plan.lumped) data.whiten_at.push_back(static_cast<S>(u.initial));
+    }
+    for (const double x : plan.noise_floor) data.noise_floor.push_back(static_cast<S>(x));
+    if (plan.deviation_limit > 0.0) {
+        for (const Lumped& u : plan.lumped) data.sizes.push_back(std::isfinite(u.initial) ? static_cast<S>(std::abs(u.initial)) : S(0));
     }
     data.elimination = make_elimination<S>(plan.elimination);
     if (plan.ratio) {

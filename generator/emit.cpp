@@ -152,6 +152,7 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("whitened", plan.whiten);
     d.set("ratio", plan.ratio.has_value());
     d.set("limited_deviation", plan.deviation_limit > 0.0);
+    d.set("has_noise_floor", !plan.noise_floor.empty());
     d.set("deviation_limit_text", exact::decimal(exact::from_double(plan.deviation_limit)));
     d.set("has_perturbation", !plan.perturbation.empty());
     d.set("discrete", plan.discrete.has_value());
@@ -468,6 +469,12 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
     d.set("noise_count", std::to_string(blueprint.noise.size()));
     d.set("noisy_inputs", std::to_string(blueprint.noisy.size()));
     d.set("whiten_at", joined(blueprint.whiten_at, plan));
+    d.set("has_noise_tests", !blueprint.sizes.empty() || !blueprint.noise_floor.empty());
+    d.set("has_sizes", !blueprint.sizes.empty());
+    d.set("sizes", joined(blueprint.sizes, plan));
+    d.set("has_noise_floor", !blueprint.noise_floor.empty());
+    d.set("noise_floor", joined(blueprint.noise_floor, plan));
+    d.set("noise_floor_count", std::to_string(blueprint.noise_floor.size()));
     d.set("keep", literal(plan.keep, plan.scalar));
     d.set("condition_limit", literal(plan.condition_limit, plan.scalar));
     d.set("deviation_limit", literal(plan.deviation_limit, plan.scalar));

@@ -33,7 +33,7 @@ std::string obstacle(const model::Model& model, const plan::Plan& plan) {
     if (alternating) return "Simpson's weights alternate";
     if (degree_of(plan) > largest_moment_degree) return "a kernel is of degree " + std::to_string(degree_of(plan)) + ", above " + std::to_string(largest_moment_degree);
     if (e.whiten) return "whitening needs whole windows";
-    if (e.deviation_limit) return "deviation_limit needs whole windows";
+    if (e.limits_deviation()) return "deviation_limit needs whole windows";
     if (e.uncertainty.value_or(false)) return "uncertainty() needs whole windows";
     if (model.growing && plan.quadrature != plan::Quadrature::exact) return "growing windows need the exact quadrature";
     if (model.growing && !plan.perturbation.empty()) return "a growing window gives no perturbation";

@@ -176,7 +176,26 @@ private:
         return reciprocal ? ex(reciprocals_[index] / multiple) : ex(multiple * symbols_[index]);
     }
 
+    /// 1 or -1 where declared limits of signals, beyond which an estimator rejects a sample, leave a formula no other sign; else 0.
+    int sign_within_limits(const Formula& f) const {
+        if (const auto value = rational_value(f)) return cln::plusp(*value) ? 1 : cln::minusp(*value) ? -1 : 0;
+        switch (f->kind) {
+            case Kind::name: {
+                const model::Signal* s = model_.signal(f->name);
+                if (s == nullptr) return 0;
+                return s->min && cln::plusp(*s->min) ? 1 : s->max && cln::minusp(*s->max) ? -1 : 0;
+            }
+            case Kind::negate: return -sign_within_limits(f->arguments[0]);
+            case Kind::multiply:
+            case Kind::divide: return sign_within_limits(f->arguments[0]) * sign_within_limits(f->arguments[1]);
+            default: return 0;
+        }
+    }
+
     ex function_atom(const Formula& f, bool reciprocal) {
+        if (formula::is_call(f, "sgn")) {
+            if (const int sign = sign_within_limits(f->arguments[0]); sign != 0) return sign;   // friction of one sign is a constant
+        }
         const Contents inside = contents(f);
         if (inside.parameters) nonlinear(f, f->kind == Kind::call ? "inside " + f->name + "()" : "inside a nonlinearity");
         check_orders(f);

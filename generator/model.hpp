@@ -98,7 +98,7 @@ struct Estimator {
     std::optional<Rational> solve_window;   ///< s
     Rational forgetting = 1;                ///< factor on the weight of old rows at each sample, least squares
     std::optional<Rational> condition_limit;
-    std::optional<Rational> deviation_limit;
+    std::optional<Rational> deviation_limit;   ///< nothing said: a default where noise_suffices sees fit; 0: none
     std::optional<bool> uncertainty;        ///< nothing said: where noise is declared and the solve allows it
     bool whiten = false;
     std::optional<Rational> omega_n;        ///< rad/s, of the ratio filter; empty: there is none
@@ -112,6 +112,7 @@ struct Estimator {
 
     /// True: rows are integrals or means over [sampling] window. False: an equation has one row an instant.
     bool has_window() const { return functional != Functional::derivative; }
+    bool limits_deviation() const { return deviation_limit && cln::plusp(*deviation_limit); }
 };
 
 /// [filter]: no estimator, a block that filters signals on their own.

@@ -90,7 +90,7 @@ void check_company(const toml::table& root, const Discrete& d, Reading& reading)
     if (e.functional != Functional::discrete) file.error(estimator_at, "[discrete] without functional = \"discrete\"", "add functional = \"discrete\" under [estimator]");
     if (e.solve == Solver::elimination) file.error(e.at, "elimination with a discrete functional, whose unknowns are free of each other", "use solve = \"square\", or \"least_squares\" for the plain method");
     if (e.solve == Solver::robust) file.error(e.at, "a discrete functional has no S(t): its rows are those of one window", "use solve = \"square\", or \"least_squares\" for the plain method");
-    if (e.whiten || e.deviation_limit || e.uncertainty.value_or(false)) file.error(e.at, "whiten, deviation_limit and uncertainty are not to be had with a discrete functional", "leave them out");
+    if (e.whiten || e.limits_deviation() || e.uncertainty.value_or(false)) file.error(e.at, "whiten, deviation_limit and uncertainty are not to be had with a discrete functional", "leave them out");
     if (model.decimate > 1) file.error(model.sampling_at, "decimate with a discrete functional: means obey another difference equation", "sample less often, or leave it out");
     if (!model.parameters.empty()) file.error(model.parameters[0].at, "[parameters] beside [discrete], whose unknowns are " + unknown_names(d).front() + " to " + unknown_names(d).back(), "leave [parameters] out; known numbers of [[equation]] go under [constants]");
     if (root.contains("transfer")) file.error(*root.get("transfer"), "[transfer] beside [discrete]", "keep one; [[equation]] beside [discrete] serves simulation");

@@ -48,10 +48,10 @@ void check_noise(const toml::table& t, Reading& reading) {
             reading.file.error(*t.get(key), std::string(key) + " needs the noise of the sensors", "declare noise = ... for the measured signals, in their unit");
         }
     };
-    asked("deviation_limit", e.deviation_limit.has_value());
+    asked("deviation_limit", e.limits_deviation());
     asked("uncertainty", e.uncertainty.value_or(false));
     asked("whiten", e.whiten && e.solve == Solver::square);
-    if (!e.uncertainty.value_or(true) && (e.whiten || e.deviation_limit)) {
+    if (!e.uncertainty.value_or(true) && (e.whiten || e.limits_deviation())) {
         reading.file.error(*t.get("uncertainty"), "uncertainty = false leaves out what whiten and deviation_limit need", "leave it out");
     }
 }
@@ -174,7 +174,7 @@ void read_estimator(const toml::table& root, Reading& reading) {
     e.form = file.whole(*t, "form", 1, 2).value_or(1);
     e.solve_window = file.duration(*t, "solve_window");
     e.condition_limit = file.positive(*t, "condition_limit");
-    e.deviation_limit = file.positive(*t, "deviation_limit");
+    e.deviation_limit = file.not_negative(*t, "deviation_limit");
     e.uncertainty = file.boolean(*t, "uncertainty");
     e.whiten = file.boolean(*t, "whiten").value_or(false);
     read_ratio_filter(*t, reading);

@@ -39,6 +39,19 @@ bool whitening_is_possible(const model::Model& model, const plan::Plan& plan, Di
     return true;
 }
 
+/// A square solve of noisy signals has instants at which the rows are regular and noise decides. With a tenth, an error of 100 percent takes five
+/// standard deviations or more. Against what size: that of the initial values, so that an unknown which is really zero is not refused; where one
+/// has none, only the user knows whether it may be zero.
+void limit_deviations(plan::Plan& plan) {
+    const bool sized = std::all_of(plan.lumped.begin(), plan.lumped.end(), [](const plan::Lumped& u) { return std::isfinite(u.initial) && u.initial != 0.0; });
+    if (sized) {
+        plan.deviation_limit = exact::nearest(Rational(1) / 10, plan.scalar);
+        return;
+    }
+    plan.notes.push_back("no deviation_limit, for not every parameter has an initial value: where the rows are nearly singular noise may move an ok estimate far; "
+                         "deviation_limit = 0.1 makes such estimates singular");
+}
+
 /// What a reading makes of an impulse, sample by sample from the impulse on.
 std::vector<Rational> response_of(const Reading& reading, const model::Model& model) {
     if (reading.op == plan::Op::derivative) {
@@ -94,13 +107,13 @@ bool noise_suffices(const model::Model& model, const std::string& through_a_filt
     const model::Estimator& e = model.estimator;
     if (!through_a_filter.empty()) {
         const std::string what = "the noise of '" + through_a_filter + "' goes through the parabola filter into means: its uncertainty is not known";
-        if (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit) {
+        if (e.uncertainty.value_or(false) || e.whiten || e.limits_deviation()) {
             diagnostics.error(model.path, e.at, what, "leave out uncertainty, whiten and deviation_limit, or the noise of that signal");
             return false;
         }
         plan.notes.push_back(what);
     }
-    if (!plan.uncertain() && through_a_filter.empty() && (e.uncertainty.value_or(false) || e.whiten || e.deviation_limit)) {
+    if (!plan.uncertain() && through_a_filter.empty() && (e.uncertainty.value_or(false) || e.whiten || e.limits_deviation())) {
         diagnostics.error(model.path, e.at, "the declared noise enters no row", "declare noise = ... for the signals that the equations measure");
         return false;
     }
@@ -109,9 +122,7 @@ bool noise_suffices(const model::Model& model, const std::string& through_a_filt
         plan.whiten = false;
     }
     if (plan.whiten && !whitening_is_possible(model, plan, diagnostics)) return false;
-    if (plan.uncertain() && plan.solve == algest::Solve::square && plan.deviation_limit == 0.0) {
-        plan.notes.push_back("no deviation_limit: where the rows are nearly singular noise may move an ok estimate far; deviation_limit = 0.1 makes such estimates singular");
-    }
+    if (plan.uncertain() && plan.solve == algest::Solve::square && !e.deviation_limit) limit_deviations(plan);
     return true;
 }
 

@@ -16,6 +16,7 @@
 #include "generator/model.hpp"
 #include "generator/names.hpp"
 #include "generator/noise_channels.hpp"
+#include "generator/noise_floor.hpp"
 #include "generator/plan_limits.hpp"
 #include "generator/plan_parameters.hpp"
 #include "generator/plan_solver.hpp"
@@ -68,6 +69,7 @@ public:
         plan_.kept = plan_.moments ? 0 : kept_samples(plan_.solve, plan_.solve_instants, plan_.uncertain(), !plan_.perturbation.empty());
         if (diagnostics_.failed()) return std::nullopt;
         if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
+        plan_.noise_floor = noise_floor(plan_);
         if (!within_limits(model_, plan_, diagnostics_)) return std::nullopt;
         return std::move(plan_);
     }

@@ -294,6 +294,7 @@ struct Plan {
     int kept;                  ///< samples that the rings keep beyond one window
     std::vector<NoiseChannel> noise;     ///< sorted by input; empty: no uncertainty()
     double deviation_limit;    ///< 0: not asked
+    std::vector<double> noise_floor;     ///< robust: what noise may make of S(t), packed upper triangle of the unknowns; empty: not asked
     bool whiten;
     std::optional<RatioFilter> ratio;
     std::optional<Elimination> elimination;   ///< with solve = elimination

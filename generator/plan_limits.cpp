@@ -14,6 +14,7 @@ bool numbers_fit_the_scalar(const model::Model& model, const plan::Plan& plan, D
     const auto finite = [](const std::vector<double>& numbers) { return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }); };
     std::vector<double> numbers = {plan.rate, plan.condition_limit, plan.deviation_limit};
     for (const plan::NoiseChannel& c : plan.noise) numbers.push_back(c.factor);
+    numbers.insert(numbers.end(), plan.noise_floor.begin(), plan.noise_floor.end());
     if (plan.moments) {
         for (const plan::MomentTable& t : plan.moments->tables) {
             numbers.insert(numbers.end(), t.coefficients.begin(), t.coefficients.end());

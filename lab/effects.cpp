@@ -2,6 +2,7 @@
 #include "lab/effects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "generator/units.hpp"
 #include "lab/bound_edits.hpp"
 #include "lab/effect_file.hpp"
+#include "lab/equation_unit.hpp"
 #include "lab/outputs.hpp"
 #include "lab/roles.hpp"
 #include "lab/rotating_frame.hpp"
@@ -19,19 +21,22 @@ using units::Unit;
 
 namespace {
 
-/// The unit of an equation that the effect may enter, as a text that UDUNITS reads; empty: unknown, or the effect names none and fits every
-/// equation. Nullopt: it may not enter. A balance stays one when it is divided by its inertia, or written in amperes.
+/// The same unit, not another multiple of it.
+bool is(const Unit& unit, const std::string& text) { return fits(unit, text) && std::abs(unit.factor_to(*Unit::parse(text)) - 1) < 1e-9; }
+
+/// The unit of an equation that the effect may enter, as a text that UDUNITS reads, multiples such as cm^3/s kept; empty: unknown, or the effect
+/// names none and fits every equation. Nullopt: it may not enter. A balance stays one when it is divided by its inertia, or written in amperes.
 std::optional<std::string> unit_that_fits(const Effect& effect, const model::Model& model, std::size_t equation) {
     if (effect.units.empty()) return "";
     const model::Equation& e = model.equations[equation];
     const Unit unit = model::unit_of_equation(model, e);
-    for (const std::string& u : effect.units) if (fits(unit, u)) return u;
+    for (const std::string& u : effect.units) if (fits(unit, u)) return is(unit, u) ? u : equation_unit(model, e);
     const std::string balance = balanced(model, e);
     if (balance.empty() || std::find(effect.units.begin(), effect.units.end(), balance) == effect.units.end()) return std::nullopt;
     const Moved own = moved(model, e);
     const std::string& of_signal = model.signals[static_cast<std::size_t>(own.signal)].unit;
     const std::string rate = of_signal.empty() ? "" : own.order == 1 ? "(" + of_signal + ")/s" : "(" + of_signal + ")/s^" + std::to_string(own.order);
-    return !unit.known() ? "" : fits(unit, rate) ? rate : unit.text();
+    return !unit.known() ? "" : is(unit, rate) ? rate : equation_unit(model, e);
 }
 
 /// Every combination of what may stand for the roles in an equation.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "generator/tape.hpp"
+#include "lab/input_jumps.hpp"
 #include "lab/past.hpp"
 
 namespace algest::lab {
@@ -25,7 +26,7 @@ enum class Mode { negative, holding, positive };
 class Run {
 public:
     Run(const OdeSystem& system, const std::vector<double>& parameters, const Drive& drive, const RunOptions& options)
-        : system_(system), drive_(drive), options_(options), inputs_(static_cast<std::size_t>(system.inputs), 0.0),
+        : system_(system), drive_(drive), options_(options), jumps_(system, parameters, drive.held), inputs_(static_cast<std::size_t>(system.inputs), 0.0),
           values_(system.residual.operations.size()), results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
           mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())),
           residual_(static_cast<Eigen::Index>(system.moving.size())), slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
@@ -48,6 +49,7 @@ public:
         set_layers();
         for (std::size_t k = options_.first; k < end; k += options_.stride) {
             sample_ = k;
+            if (k > options_.first) jumps_.at_sample(drive_, k, x);
             set_state(x);
             since_ = 0.0;
             set_driven(0.0);
@@ -85,6 +87,11 @@ private:
             const std::vector<double>& v = drive_.values[static_cast<std::size_t>(s)];
             const bool held = drive_.held[static_cast<std::size_t>(s)] || sample_ + 1 >= v.size();
             inputs_[static_cast<std::size_t>(s)] = held ? v[sample_] : v[sample_] + fraction * (v[sample_ + 1] - v[sample_]);
+        }
+        for (const InputDerivative& d : system_.input_derivatives) {   // between samples: of what is held, or runs straight
+            const std::vector<double>& v = drive_.values[static_cast<std::size_t>(d.signal)];
+            const bool held = d.order > 1 || drive_.held[static_cast<std::size_t>(d.signal)] || sample_ + 1 >= v.size();
+            inputs_[static_cast<std::size_t>(d.input)] = held ? 0.0 : (v[sample_ + 1] - v[sample_]) / drive_.period;
         }
         for (std::size_t d = 0; d < system_.delays.size(); ++d) {
             if (!system_.delays[d].moves) delayed_input(d) = delayed_value(d, fraction);
@@ -426,6 +433,7 @@ private:
     const OdeSystem& system_;
     const Drive& drive_;
     const RunOptions& options_;
+    StateJumps jumps_;
     FreeRun out_;
     std::vector<double> inputs_;
     std::vector<double> values_;

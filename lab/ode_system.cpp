@@ -6,6 +6,7 @@
 
 #include "generator/delay.hpp"
 #include "generator/tape_builder.hpp"
+#include "lab/input_jumps.hpp"
 #include "lab/lone_argument.hpp"
 #include "lab/outputs.hpp"
 
@@ -43,10 +44,11 @@ public:
         find_orders();
         if (!assign_signals()) return std::nullopt;
         list_states();
-        if (!nothing_driven_is_differentiated()) return std::nullopt;
+        if (!only_inputs_are_differentiated_besides()) return std::nullopt;
         if (!highest_stand_outside_functions() || !laws_see_states()) return std::nullopt;
         if (!find_delays()) return std::nullopt;
         number_inputs();
+        if (!find_input_jumps(model_, motion_, tape_inputs_, out_, diagnostics_)) return std::nullopt;
         compile();
         return std::move(out_);
     }
@@ -69,7 +71,7 @@ private:
         }
     }
 
-    /// Signals whose highest derivative stands in the equation, the first written one first.
+    /// Signals whose highest derivative stands in the equation, the first written one first; what is held between samples is a command, last.
     std::vector<int> candidates(const model::Equation& e) const {
         std::vector<int> out;
         each_node(e, [&](const Formula& f) {
@@ -77,6 +79,7 @@ private:
             const int signal = model_.signal_index(f->arguments[0]->name);
             if (orders_.at(signal) == formula::derivative_order(f) && std::find(out.begin(), out.end(), signal) == out.end()) out.push_back(signal);
         });
+        std::stable_partition(out.begin(), out.end(), [&](int s) { return model_.signals[static_cast<std::size_t>(s)].hold != plan::Hold::zoh; });
         return out;
     }
 
@@ -134,12 +137,12 @@ private:
         }
     }
 
-    bool nothing_driven_is_differentiated() {
+    bool only_inputs_are_differentiated_besides() {
         for (const auto& [signal, order] : orders_) {
-            if (moves(signal)) continue;
+            if (moves(signal) || std::find(out_.driven.begin(), out_.driven.end(), signal) != out_.driven.end()) continue;
             const std::string& name = model_.signals[static_cast<std::size_t>(signal)].name;
-            fail(model_.signals[static_cast<std::size_t>(signal)].at, "'" + name + "' is differentiated, but no equation moves it: its derivative cannot be simulated",
-                 "write the model with a state instead of der(" + name + "), or add the equation that moves " + name);
+            fail(model_.signals[static_cast<std::size_t>(signal)].at, "'" + name + "' is differentiated, but a law sets it: its derivative cannot be simulated",
+                 "write the model with a state instead of der(" + name + ")");
             return false;
         }
         return true;
@@ -252,6 +255,12 @@ private:
         for (std::size_t p = 0; p < model_.parameters.size(); ++p) tape_inputs_.parameter.push_back(out_.inputs++);
         out_.delay_input = out_.inputs;
         for (const model::Delay& d : delays_) tape_inputs_.delay[{d.text, false}] = {plan::Op::input, out_.inputs++, -1, 0};
+        for (const int signal : out_.driven) {
+            for (int order = 1; orders_.count(signal) > 0 && order <= orders_.at(signal); ++order) {
+                tape_inputs_.derivative[{signal, order}] = out_.inputs;
+                out_.input_derivatives.push_back({signal, order, out_.inputs++});
+            }
+        }
         out_.relay_input = out_.inputs;
         number_relays();
         number_layers();

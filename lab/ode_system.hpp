@@ -37,6 +37,19 @@ struct DelayedSignal {
     bool moves;      ///< it is known at samples alone, from the run's own past: no equation of motion reads it
 };
 
+/// A derivative of a recorded input that an equation of motion holds.
+struct InputDerivative {
+    int signal;
+    int order;
+    int input;       ///< of the tapes
+};
+
+/// What jumps of such inputs do at samples (input_jumps.hpp).
+struct InputJumps {
+    std::vector<int> level;            ///< by moving: order of the impulse in its equation; -1: none
+    std::vector<plan::Tape> factors;   ///< by moving: of its residual's derivatives by those of all moving signals, orders from 1 on, then by those of inputs
+};
+
 /// A control law that is sampled once a period and held.
 struct Law {
     int signal;          ///< that it sets
@@ -52,7 +65,7 @@ struct Output {
 /// What moves, what is replayed, and the residual  left - right  of every equation, linear in the highest derivatives.
 ///
 /// Inputs of all tapes, in this order: signals (model order), derivatives of states above order 0 and the highest ones
-/// (`derivative_input`), parameters (model order), delayed signals, relays, widths of layers.
+/// (`derivative_input`), parameters (model order), delayed signals, derivatives of inputs, relays, widths of layers.
 struct OdeSystem {
     std::vector<StateEntry> states;        ///< for each moving signal its orders 0, 1, ... in turn
     std::vector<int> moving;               ///< signals with an equation of motion of their own, in the order of those equations
@@ -62,11 +75,13 @@ struct OdeSystem {
     std::vector<Output> outputs;           ///< each behind those that it needs
     std::vector<Law> laws;
     std::vector<DelayedSignal> delays;
+    std::vector<InputDerivative> input_derivatives;
+    InputJumps input_jumps;
     std::vector<Relay> relays;
     std::vector<Layer> layers;
     std::vector<std::vector<int>> derivative_input;   ///< by moving: tape input of orders 1 .. highest
     int parameter_input = 0;               ///< tape input of the first parameter
-    int delay_input = 0;                   ///< tape input of the first delayed signal
+    int delay_input = 0;                   ///< tape input of the first delayed signal, behind the last parameter
     int relay_input = 0;                   ///< tape input of the first relay
     int inputs = 0;
     plan::Tape residual;                   ///< results: one per moving signal, then the arguments of relays and layers
@@ -80,8 +95,8 @@ bool moves(const OdeSystem& system, std::size_t signal);
 std::vector<int> simulated_signals(const OdeSystem& system);
 
 /// Compiles the equations. Complains (bad input) where there are no equations of motion, where an equation has no derivative of its
-/// own to give, where a highest derivative stands inside a function, where an input is differentiated, where an equation of motion
-/// delays what moves, or where output equations contradict (outputs.hpp).
+/// own to give, where a highest derivative stands inside a function, where what a law sets is differentiated or an input so that the
+/// motion is none (input_jumps.hpp), where an equation of motion delays what moves, or where output equations contradict (outputs.hpp).
 std::optional<OdeSystem> ode_system(const model::Model& model, Diagnostics& diagnostics);
 
 }  // namespace algest::lab

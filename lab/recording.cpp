@@ -35,7 +35,7 @@ void complain_of_unit(const Recording& recording, const Column& column, const Wa
         fmt::format("the unit {} of column {} is not known, so it does not convert to {}", quoted(*column.unit),
                     quoted(column.name), target),
         spelling
-            ? quoted(*spelling)
+            ? "write " + *spelling
             : fmt::format("a unit in UDUNITS syntax, or the signal `{}` without a unit or with this very text as its unit",
                           wanted.name));
 }

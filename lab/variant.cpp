@@ -126,7 +126,7 @@ std::optional<Parts> parts_of(const Recording& recording, const std::optional<st
                           fmt::format("train on less, e.g. --train {:g}:{:.3g}; at least {} samples behind it are needed", train->first, recording.t[out.train.begin + (samples - out.train.begin) * 7 / 10], least_test));
         return std::nullopt;
     }
-    if (out.train.end <= out.train.begin + least_train || out.test.end <= out.test.begin + least_test) {
+    if (out.train.end < out.train.begin + least_train || out.test.end < out.test.begin + least_test) {
         const auto size = [](const Rows& r) { return std::to_string(r.end > r.begin ? r.end - r.begin : 0); };
         diagnostics.error(recording.file, {}, "too short: " + size(out.train) + " samples to train on, " + size(out.test) + " to test on",
                           "at least " + std::to_string(least_train) + " and " + std::to_string(least_test) + " are needed");

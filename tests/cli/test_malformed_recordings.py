@@ -69,7 +69,7 @@ CASES = [
     ("unit without closing bracket", with_header("t [s],u [V,i [A]"), 1, 7, "bracket"),
     ("unit of another dimension", with_header("t [s],u [A],i [A]"), 1, 7, "does not convert to 'V'"),
     ("unit that nobody knows", with_header("t [s],u [V],i [counts; 8192 per rev]"), 1, 13, "is not known"),
-    ("misspelt unit", with_header("t [s],u [Nm],i [A]"), 1, 7, "'N.m'"),
+    ("misspelt unit", with_header("t [s],u [Nm],i [A]"), 1, 7, "write N.m"),
     ("semicolons", GOOD.replace(",", ";"), 1, 6, "commas"),
     ("tabs", GOOD.replace(",", "\t"), 1, 6, "commas"),
     ("quote that is not closed", with_line_61(f'{T},"{U},{I}'), 61, AT_U, "quotes"),

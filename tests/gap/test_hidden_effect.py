@@ -27,8 +27,8 @@ min = 0
 
 
 class HiddenEffect(unittest.TestCase):
-    def discover(self, folder, friction, *more):
-        (folder / "motor.toml").write_text(MODEL)
+    def discover(self, folder, friction, *more, model=MODEL):
+        (folder / "motor.toml").write_text(model)
         (folder / "run.csv").write_text(recording(friction, 7))
         done = subprocess.run([ALGEST, "discover", folder / "motor.toml", folder / "run.csv", "-o", folder / "found", "--json", *more],
                               text=True, capture_output=True)
@@ -61,6 +61,20 @@ class HiddenEffect(unittest.TestCase):
             self.assertEqual(replay.returncode, 0, replay.stderr)
             values = {p["name"]: p["last"] for p in json.loads(replay.stdout)["parameters"]}
             self.assertAlmostEqual(values["Tc"], TC, delta=0.1 * TC)   # noisy speed inside sgn() at low speed: a bias of some percent
+
+    def test_a_model_in_multiples_of_si_units_gets_its_term_in_them(self):
+        model = MODEL
+        for old, new in (('[parameters]', 'Kt = { value = 50, unit = "mN.m/A" }\n\n[parameters]'), ('K*i - b*w', 'Kt*i - b*w'),
+                         ('J = { initial = 3e-4, unit = "kg.m^2"', 'J = { initial = 0.3, unit = "mN.m.s^2/rad"'),
+                         ('b = { initial = 1e-4, unit = "N.m.s/rad"', 'b = { initial = 0.1, unit = "mN.m.s/rad"')):
+            self.assertIn(old, model)
+            model = model.replace(old, new)
+        with tempfile.TemporaryDirectory() as name:
+            found = self.discover(Path(name), TC, model=model)
+            self.assertEqual([e["name"] for e in found["effects"]], ["coulomb_friction"])
+            friction = found["effects"][0]["parameters"][0]
+            self.assertEqual(friction["unit"], "mN.m")
+            self.assertAlmostEqual(friction["value"], 1000 * TC, delta=0.05 * 1000 * TC)   # as above
 
     def test_nothing_is_named_where_nothing_is_hidden(self):
         with tempfile.TemporaryDirectory() as name:

@@ -102,13 +102,18 @@ struct Answer {
     }
 };
 
-/// What inputs move about, and by how much: positive, of the size of an air gap in metres; the servo has to turn, and to turn back.
+/// What inputs move about, and by how much: positive, of the size of an air gap in metres; the servo has to turn, and to turn back; the currents of
+/// the PMSM have to exceed their noise.
 template <class Class>
 constexpr double middle = 2e-3;
 template <>
 inline constexpr double middle<generated::Servo> = 0.0;
+template <>
+inline constexpr double middle<generated::PmsmElectrical> = 2.0;
 template <class Class>
 constexpr double size = 1e-3;
+template <>
+inline constexpr double size<generated::PmsmElectrical> = 1.0;
 template <>
 inline constexpr double size<generated::Servo> = 1.0;
 

@@ -29,7 +29,8 @@ def folders(float_folder):
 
 def of(model, folder):
     """Compiler options that say which model a program of programs/ is about, and about what its inputs move by how much."""
-    middle, size = (0.0, 1.0) if model == "servo" else (2e-3, 1e-3)   # it has to turn, and to turn back; others may divide by an air gap
+    # The servo has to turn, and to turn back; the PMSM's currents have to exceed their noise; others may divide by an air gap.
+    middle, size = {"servo": (0.0, 1.0), "pmsm_electrical": (2.0, 1.0)}.get(model, (2e-3, 1e-3))
     return [f"-I{folder}", f'-DHEADER="{model}/{model}.hpp"', f"-DMODEL={class_name(model)}", f"-DMIDDLE={middle}", f"-DSIZE={size}"]
 
 

@@ -64,9 +64,9 @@ public:
         return status == Status::ok;
     }
     std::vector<S> sound(int k) const {
-        const bool turns = plan_.name == model<generated::Servo>;
-        const double about = turns ? middle<generated::Servo> : middle<void>;
-        const double by = turns ? size<generated::Servo> : size<void>;
+        const bool turns = plan_.name == model<generated::Servo>, has_noise = plan_.name == model<generated::PmsmElectrical>;
+        const double about = turns ? middle<generated::Servo> : has_noise ? middle<generated::PmsmElectrical> : middle<void>;
+        const double by = turns ? size<generated::Servo> : has_noise ? size<generated::PmsmElectrical> : size<void>;
         std::vector<S> out;
         for (std::size_t i = 0; i < plan_.inputs.size(); ++i) {
             const double phase = (0.011 + 0.0073 * static_cast<double>(i)) * k;

@@ -42,8 +42,9 @@ std::vector<S> samples(const plan::Plan& plan) {
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0.0, 0.01);
     const bool turns = plan.name == "servo";   // it has to turn, and to turn back; others may divide by an air gap
-    const double middle = turns ? 0.0 : 0.003;
-    const double size = turns ? 1.0 : 0.002;
+    const bool has_noise = plan.name == "pmsm_electrical";   // which its currents have to exceed
+    const double middle = turns ? 0.0 : has_noise ? 3.0 : 0.003;
+    const double size = turns ? 1.0 : has_noise ? 2.0 : 0.002;
     const int instants = plan.samples() + plan.solve_instants + (turns ? 400 : 50);
     const std::size_t inputs = plan.inputs.size();
     std::vector<S> out;

@@ -374,7 +374,7 @@ VALUES = [
     ("whitened rows without noise", changed(PLAIN, "x = {}", "x = { noise = 1 }", "a = {}", "a = { initial = 1 }", "b = {}", "b = { initial = 1 }",
                                             'ode = "der(x) = a*x + b*u"\n', 'ode = "der(x) = a*x + b*u"\nrows = 2\n[[equation]]\node = "der(y) = a*y + b*u"\nrows = 2\n'
                                             "▸[estimator]\nwhiten = true\n"), "have no noise"),
-    ("deviation limit of zero", noisy("deviation_limit = ▸0\n"), "not positive"),
+    ("a negative deviation limit", noisy("deviation_limit = ▸-0.1\n"), "is negative"),
     ("deviation limit without noise", estimator("deviation_limit = ▸0.1\n"), "needs the noise of the sensors"),
     ("deviation limit of all rows since reset", noisy('solve = "least_squares"\ndeviation_limit = ▸0.1\n'), "not to be had with least_squares"),
     ("uncertainty that is no boolean", noisy('uncertainty = ▸"yes"\n'), "neither true nor false"),

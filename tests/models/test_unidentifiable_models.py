@@ -26,6 +26,8 @@ def model(parameters, *equations):
 CASES = [
     ("offset under kappa = 1", model(["a = {}", "▸offset = {}"], 'ode = "der(x) = a*u + offset"\nkappa = 1'), [["'offset'", "kappa >= 1 erases"]]),
     ("offset times a constant under kappa = 2", model(["a = {}", "▸offset = {}"], 'ode = "der(x) = a*u + 3*sqrt(2)*offset"\nkappa = 2'), [["'offset'"]]),
+    ("friction that cannot change its sign, under kappa = 1", model(["m = {}", "▸Tc = {}"], 'ode = "m*der(x) = u - Tc*sgn(2*x)"\nkappa = 1').replace("x = {}", "x = { min = 0.1 }"), [["'Tc'", "kappa >= 1 erases"]]),
+    ("friction that cannot change its sign beside a load", model(["m = {}", "Tc = {}", "T0 = {}"], 'ode = ▸"m*der(x) = u - Tc*sgn(-x) - T0"').replace("x = {}", "x = { max = -3 }"), [["m, Tc, T0", "1/m"]]),
     ("parameter in no equation", model(["a = {}", "▸spare = {}"], 'ode = "der(x) = a*u"'), [["'spare'", "stands in no equation"]]),
     ("parameter that cancels", model(["a = {}", "▸b = {}"], 'ode = "der(x) = a*u + b*x - x*b"'), [["'b'"]]),
     ("parameter times zero", model(["a = {}", "▸b = {}"], 'ode = "der(x) = a*u + 0*b*x"'), [["'b'"]]),

@@ -10,7 +10,7 @@
 
 namespace algest::plants {
 
-/// The model of models/ at 10 kHz.
+/// The model of models/ at 10 kHz. With square, estimates are those of the rows as they are, however uncertain.
 inline std::string pmsm_model(const std::string& solve, const std::string& hold = "zoh") {
     return fmt::format(R"(format = 1
 name = "pmsm"
@@ -41,7 +41,7 @@ rows = 1
 solve = "{1}"
 {2}
 )",
-                       hold, solve, solve == "robust" ? "solve_window = 0.2" : "");
+                       hold, solve, solve == "robust" ? "solve_window = 0.2" : "deviation_limit = 0");
 }
 
 inline std::vector<double> inputs(const PmsmSample& s) { return {s.v_d, s.v_q, s.i_d, s.i_q, s.omega}; }

@@ -23,11 +23,13 @@ struct Spikes {
     double share() const { return static_cast<double>(ok) / static_cast<double>(samples); }
 };
 
-/// S(t); the square solve without a test; the same where noise may move no unknown by more than 5 percent (one standard deviation).
+/// S(t); the square solve without a test; the same as `generate` makes it where noise is declared: noise may move no unknown by more than 10 percent
+/// (one standard deviation); by more than 5 percent.
 /// Every `stride`-th sample after both windows are full, 0.4 s, until 0.8 s; noise of 0.03 A. Prints them side by side.
-inline std::array<Spikes, 3> spikes(unsigned runs, std::size_t stride) {
-    std::array<Spikes, 3> all{Spikes{"S(t)", plan_of(pmsm_model("robust"))}, Spikes{"square, no test", plan_of(pmsm_model("square") + "condition_limit = 1e99\nuncertainty = false\n")},
-                              Spikes{"square, deviation_limit = 0.05", plan_of(pmsm_model("square") + "deviation_limit = 0.05\n")}};
+inline std::array<Spikes, 4> spikes(unsigned runs, std::size_t stride) {
+    const auto limited = [](const std::string& limit) { return plan_of(changed(pmsm_model("square"), {{"deviation_limit = 0\n", limit}})); };
+    std::array<Spikes, 4> all{Spikes{"S(t)", plan_of(pmsm_model("robust"))}, Spikes{"square, no test", plan_of(pmsm_model("square") + "condition_limit = 1e99\nuncertainty = false\n")},
+                              Spikes{"square, nothing said", limited("")}, Spikes{"square, deviation_limit = 0.05", limited("deviation_limit = 0.05\n")}};
     Pmsm motor;
     motor.current_noise = 0.03;
     const std::array<double, 3> truth{motor.R, motor.L, motor.K};

@@ -7,9 +7,10 @@ using namespace algest;
 using namespace algest::plants;
 
 TEST_CASE("PMSM with noise, 100 runs: no ok estimate is a spike") {
-    const auto [robust, plain, limited] = spikes(100, 2);
+    const auto [robust, plain, usual, limited] = spikes(100, 2);
     CHECK(robust.worst < 0.2);
     CHECK(robust.share() >= 0.95);
     CHECK(plain.worst >= 1.0);
+    CHECK(usual.worst < 1.0);     // no spike
     CHECK(limited.worst < 0.3);   // six standard deviations of the limit, over 200000 estimates
 }

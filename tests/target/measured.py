@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from environment import SOURCE, run
-from emulated import CORES, Board, engines, exciting, footprint, generate, host_bits, skip_without_tools
+from emulated import CORES, SIZES, Board, engines, exciting, footprint, generate, host_bits, skip_without_tools
 
 TABLE = SOURCE / "docs/target-table.md"
 MEASURED = 200   # samples from the first full estimate on
+MOVING = {"pmsm_electrical": 1.0}   # its currents have to exceed their noise; others may divide by an air gap
 FULL = "pmsm_electrical, M = 2000"
 FULL_MODEL = SOURCE / "bench/pmsm_full_window.toml"   # as 000 would have it: 10 kHz, S(t) over as many
 
@@ -44,7 +45,7 @@ def cases():
 def measure(name, model, engine, core, folder, check=None):
     """check(emitted, what ran on the board, the answers on this machine) may say more about it."""
     emitted = generate(model, engine, folder / "generated")
-    rows = exciting(emitted.inputs, emitted.first_ok + MEASURED)
+    rows = exciting(emitted.inputs, emitted.first_ok + MEASURED, MOVING.get(name, SIZES["ordinary"]))
     ran = Board(emitted, core, folder).run(rows)
     if check:
         check(emitted, ran, host_bits(emitted, rows, folder))

@@ -42,7 +42,7 @@ struct Blueprint {
     S condition_limit;    ///< above it an estimate is singular
     int kept;             ///< samples that the rings keep beyond one window; kept_samples() or more
     Noise<S> noise;       ///< of the sensors
-    S deviation_limit;    ///< an estimate is singular where a standard deviation exceeds this part of its unknown; 0: not asked
+    S deviation_limit;    ///< an estimate is singular where a standard deviation exceeds this part of its unknown, see `sizes`; 0: not asked
     View<S> whiten_at;    ///< unknowns at which rows are whitened until the first ok estimate; empty: they are not whitened
     LowPass<S> ratio;     ///< robust: of numerators and denominator
     RowSet<S> perturbation;   ///< rows whose residuals at the estimate are the perturbation's coefficients; none: rows == 0
@@ -50,6 +50,10 @@ struct Blueprint {
     Elimination<S> elimination = {};   ///< what the columns mean; otherwise empty
     bool rows_published = false;   ///< push evaluates the rows that estimate needs, and publishes them: the windows are moments, which nobody else can read
     int shortest = 0;              ///< samples of the shortest window that is solved, where windows grow; 0: they do not
+    View<S> noise_floor = {};      ///< robust: what declared noise alone may make of S(t), packed upper triangle; an estimate is singular where S(t)
+                                   ///< does not rise above it. Empty: not asked
+    View<S> sizes = {};            ///< with a deviation limit: absolute values of the unknowns, where they are expected; one that is found
+                                   ///< smaller counts as large as this, so that one which is really zero is not refused
 
     constexpr int needed() const noexcept { return shortest > 0 ? shortest : rows.samples; }
 };
@@ -366,11 +370,13 @@ inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, con
     for (int r = 0; r < rows.rows; ++r) out[r] = residual(scratch + r * (rows.unknowns + 1), lumped, rows.unknowns);
 }
 
-/// True when no standard deviation exceeds the limit's part of its unknown.
+/// True when no standard deviation exceeds the limit's part of its unknown, or of the size that it is expected to have.
 template <class S>
-inline bool certain_enough(const S* covariance, const S* lumped, int unknowns, S limit) noexcept {
+inline bool certain_enough(const Blueprint<S>& blueprint, const S* covariance, const S* lumped) noexcept {
+    const int unknowns = blueprint.rows.unknowns;
     for (int u = 0; u < unknowns; ++u) {
-        const S most = limit * lumped[u];
+        const S expected = blueprint.sizes.size > 0 ? blueprint.sizes[u] : S(0);
+        const S most = blueprint.deviation_limit * larger(std::abs(lumped[u]), expected);
         if (!(covariance[packed_index(unknowns, u, u)] <= most * most)) return false;
     }
     return true;
@@ -392,6 +398,7 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
     const int size = packed_size(n + 1);
     const EstimateScratch<S> at = estimate_scratch_at(rows, scratch);
     Solved<S> solved = {false, none};
+    bool beyond_noise = true;
     if (blueprint.solve == Solve::square) {
         const bool usable = newest_rows(blueprint, memory, then, at);
         if (overtaken(blueprint, memory, then)) return {false, Status::filling, none};
@@ -400,11 +407,12 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
     } else {
         for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * slot_scalars(blueprint) + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
+        if (blueprint.noise_floor.size > 0) beyond_noise = rises_above(at.sums, blueprint.noise_floor.data, n, at.work);
         solved = blueprint.solve == Solve::robust          ? solve_gram(at.sums, n, at.work, lumped)
                  : blueprint.solve == Solve::least_squares ? solve_triangle(at.sums, n, at.work, lumped)
                                                            : eliminate(blueprint.elimination, at.sums, n, at.work, lumped);
     }
-    bool good = solved.regular && solved.condition <= blueprint.condition_limit;
+    bool good = solved.regular && solved.condition <= blueprint.condition_limit && beyond_noise;
     if (blueprint.ratio.used) {   // what solve_gram leaves in its scratch: L and D, then the scales
         if (!good) filter_nothing(blueprint.ratio, memory.ratio, n);
         good = good && filter_ratio(blueprint.ratio, memory.ratio, at.work, n + 1, at.work + n * n, n, lumped);
@@ -412,7 +420,7 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
     if (good && blueprint.deviation_limit > S(0)) {
         S* const covariance = scratch + uncertainty_scratch(rows.rows, n, blueprint.solve == Solve::robust ? blueprint.solve_instants : 0);
         good = propagate(blueprint, memory, then, scratch, lumped, covariance, static_cast<S*>(nullptr)) &&
-               certain_enough(covariance, lumped, n, blueprint.deviation_limit);
+               certain_enough(blueprint, covariance, lumped);
     }
     if (good && blueprint.perturbation.rows > 0) perturbation_of(blueprint, memory, then, at.matrix, lumped, lumped + n);
     const bool reads_windows = blueprint.deviation_limit > S(0) || blueprint.perturbation.rows > 0;

@@ -74,4 +74,38 @@ inline Solved<S> solve_gram(const S* gram, int unknowns, S* scratch, S* solution
     return {true, std::sqrt(S(n) * inverse_trace)};
 }
 
+/// Scalars of scratch that rises_above needs.
+constexpr int rises_above_scratch(int unknowns) noexcept { return unknowns * unknowns + unknowns; }
+
+/// True where S minus `floor` (packed upper triangle, unknowns) is positive definite: where every combination of the unknowns is seen by more than
+/// the floor. gram: as solve_gram takes it. A combination that noise alone moves would pass the rank test, for noise is regular. Fixed loops.
+/// Cost: about unknowns^3 / 3 operations and unknowns square roots.
+template <class S>
+inline bool rises_above(const S* gram, const S* floor, int unknowns, S* scratch) noexcept {
+    const int n = unknowns;
+    bool above = true;
+    S* lower = scratch;             // as in solve_gram
+    S* scale = scratch + n * n;
+    for (int i = 0; i < n; ++i) {
+        const S diagonal = gram[packed_index(n + 1, i, i)];
+        const bool usable = diagonal > S(0) && std::isfinite(diagonal);
+        above = above && usable;
+        scale[i] = std::sqrt(usable ? diagonal : S(1));
+    }
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            S sum = (gram[packed_index(n + 1, j, i)] - floor[packed_index(n, j, i)]) / scale[i] / scale[j];
+            for (int k = 0; k < j; ++k) sum -= lower[i * n + k] * lower[j * n + k] * lower[k * n + k];
+            if (i == j) {
+                const bool usable = sum > smallest_pivot<S>(n);
+                above = above && usable;
+                lower[i * n + i] = usable ? sum : S(1);
+            } else {
+                lower[i * n + j] = sum / lower[j * n + j];
+            }
+        }
+    }
+    return above;
+}
+
 }  // namespace algest
