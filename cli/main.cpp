@@ -236,7 +236,8 @@ int parse_and_run(int argc, char** argv, bool json) {
     } catch (const CLI::Success& help_or_version) {
         return app.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        return complain(error.what(), "`algest --help` and `algest COMMAND --help` list what there is", json);
+        const std::string command = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name();
+        return complain(error.what(), command.empty() ? "`algest --help` lists what there is" : "`algest " + command + " --help` shows how, with examples", json);
     }
     replay_options.command = simulate_options.command = std::vector<std::string>(argv + 1, argv + argc);
     if (check_command->parsed()) return check(check_options);
