@@ -64,7 +64,7 @@ Eigen::MatrixXd exponential(const Eigen::MatrixXd& m) {
 
 bool is_linear(const OdeSystem& system, const std::vector<bool>& held) {
     const bool remembers = std::any_of(system.delays.begin(), system.delays.end(), [](const DelayedSignal& d) { return d.moves; });
-    if (!system.constant_mass || remembers || !system.layers.empty()) return false;
+    if (!system.constant_mass || remembers || !system.layers.empty() || !system.input_derivatives.empty()) return false;
     std::vector<Course> inputs(static_cast<std::size_t>(system.inputs), Course::constant);
     for (const int s : system.driven) inputs[static_cast<std::size_t>(s)] = held[static_cast<std::size_t>(s)] ? Course::held : Course::straight;
     for (const Law& law : system.laws) inputs[static_cast<std::size_t>(law.signal)] = Course::held;

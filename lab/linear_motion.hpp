@@ -9,8 +9,8 @@
 namespace algest::lab {
 
 /// True when every state's rate is  A x + b(t), A of parameters alone and b(t) straight between samples, however it came about at the samples:
-/// inputs, laws, relays; inputs that come late, by whole samples. held: by signal, constant between samples. Systems that delay what moves, or
-/// have layers, are none.
+/// inputs, laws, relays; inputs that come late, by whole samples. held: by signal, constant between samples. Systems that delay what moves, have
+/// layers, or differentiate an input, are none.
 bool is_linear(const OdeSystem& system, const std::vector<bool>& held);
 
 /// x(t+h) = x + h phi1 x'(t) + h phi2 (x'(x, t+h) - x'(x, t)): exact where is_linear, the rate's slope in time taken at an unmoved state.

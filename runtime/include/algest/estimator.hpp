@@ -376,7 +376,7 @@ inline bool certain_enough(const Blueprint<S>& blueprint, const S* covariance, c
     const int unknowns = blueprint.rows.unknowns;
     for (int u = 0; u < unknowns; ++u) {
         const S expected = blueprint.sizes.size > 0 ? blueprint.sizes[u] : S(0);
-        const S most = blueprint.deviation_limit * larger(std::abs(lumped[u]), expected);
+        const S most = blueprint.deviation_limit * larger(S(std::abs(lumped[u])), expected);
         if (!(covariance[packed_index(unknowns, u, u)] <= most * most)) return false;
     }
     return true;
