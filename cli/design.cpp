@@ -87,7 +87,7 @@ std::string reference_text(const model::Model& model, const lab::Design& design)
 std::string design_text(const model::Model& model, const DesignOptions& options, const lab::Design& design) {
     std::string out = design.curve.empty() ? "" : curve_text(design);
     if (design.recommended) out += reference_text(model, design);
-    out += design.recommended ? recommendation_text(model, design) : "no window gives an estimate on this recording\n";
+    out += design.recommended ? recommendation_text(model, design) : "no window gives an estimate on this recording that rises above its own scatter\n";
     if (!design.reached && design.recommended) out += fmt::format("the accuracy {} is out of reach\n", percent(*options.accuracy));
     for (const std::string& text : design.missing) out += "missing: " + text + "\n";
     return out;

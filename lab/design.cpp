@@ -260,7 +260,9 @@ private:
         return *std::find_if(all.begin(), all.end(), [&](const Trial* t) { return t->error <= enough; });
     }
 
+    /// None where no parameter rises above its scatter: errors of nothing are zero.
     std::optional<Trial> best() const {
+        if (std::none_of(out_.reference.counts.begin(), out_.reference.counts.end(), [](bool counts) { return counts; })) return std::nullopt;
         const Trial* plain = shortest_of(out_.curve);
         if (plain == nullptr) return std::nullopt;
         const Trial* other = nullptr;

@@ -38,7 +38,7 @@ struct Design {
     std::vector<Trial> curve;            ///< as the model is but for its window, shortest first
     std::vector<Trial> others;           ///< with other kappa or more rows
     Reference reference;
-    std::optional<Trial> recommended;    ///< empty: no trial had estimates
+    std::optional<Trial> recommended;    ///< empty: no trial had estimates, or none of a parameter that rises above its scatter
     bool reached;                        ///< the recommended one has the accuracy asked for, if one was
     std::vector<std::string> missing;    ///< what the recording does not excite
 };

@@ -192,6 +192,13 @@ class Design(CommandLine):
                 self.assertEqual(engine, trial["engine"])
                 self.assertEqual(bool(arrow), trial["window_s"] == answer["recommended"]["window_s"])
 
+    def test_noise_alone_determines_nothing(self):
+        """Nobody switched the coil on: what every window says of R and L is as wide as it is large, and no window is right."""
+        recording = self.write("idle.csv", coil(noise=0.01, amplitude=0.0))
+        answer = self.algest_json("design", self.write("model.toml", SQUARE), recording, exit_code=1)
+        self.assertFalse(answer["reached"])
+        self.assertIsNone(answer["recommended"])
+
     def test_missing_excitation(self):
         text = (SOURCE / "models" / "pmsm_electrical.toml").read_text().replace("period = 1e-3", "period = 1e-4")
         rows, i_d, i_q, decay = [], 0.0, 0.0, math.exp(-MOTOR["R"] / MOTOR["L"] * 1e-4)
