@@ -211,7 +211,7 @@ class Design(CommandLine):
         self.assertIsNone(answer["recommended"])
         self.assertEqual(answer["missing"], ["K needs omega different from zero"])
         out, _ = self.algest("design", "model.toml", recording, exit_code=1)
-        self.assertEqual(out, "no window gives an estimate on this recording\nmissing: K needs omega different from zero\n")
+        self.assertEqual(out, "no window gives an estimate on this recording that rises above its own scatter\nmissing: K needs omega different from zero\n")
 
     def test_accuracy(self):
         recording = self.write("noisy.csv", coil(noise=0.05))
