@@ -62,6 +62,10 @@ bool write_outputs(const ReplayOptions& options, const plan::Plan& plan, const l
     return lab::write_files(files, diagnostics);
 }
 
+bool every_window_is_singular(const lab::ReplaySummary& summary) {
+    return summary.count[static_cast<std::size_t>(Status::ok)] == 0 && summary.count[static_cast<std::size_t>(Status::singular)] > 0;
+}
+
 }  // namespace
 
 plan::Scalar scalar_of(const ReplayOptions& options) { return options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64; }
@@ -92,6 +96,7 @@ int replay(const ReplayOptions& options) {
     for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
 
     if (const auto missing = what_is_missing(*plan, *replay, summary)) note(*missing);
+    else if (plan->functional == plan::Functional::annihilator && !plan->discrete && every_window_is_singular(summary)) note(fmt::format("no window tells all unknowns apart; what this recording does not excite is said by: algest design {} {}", options.model, options.recordings[0]));
     if (options.json) print_json(replay_json(options.model, options.recordings[0], *plan, *replay, summary));
     else print(replay_text(*plan, *replay, summary));
     return exit_done;

@@ -37,9 +37,11 @@ class Standstill(CommandLine):
             self.assertEqual(status["ok"], 0)
             self.assertGreater(status["singular"], 1000)
             self.assertNotIn(SAID, err)   # the status does
+            self.assertIn("no window tells all unknowns apart", err)
             status, err = self.replay(model, recording(lambda k: 12.0 + 6.0 * (k // 40 % 2)))
             self.assertGreater(status["ok"], 600)
             self.assertNotIn(SAID, err)
+            self.assertNotIn("no window tells", err)
 
     def test_undeclared_noise_is_said(self):
         for model in (RL, RL.replace('solve = "square"', ROBUST), RL.replace('solve = "square"', 'solve = "least_squares"')):
