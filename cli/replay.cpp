@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/output_file.hpp"
@@ -62,6 +64,17 @@ bool write_outputs(const ReplayOptions& options, const plan::Plan& plan, const l
     return lab::write_files(files, diagnostics);
 }
 
+/// That nothing moves but noise: in the whole stretch, or in the samples that the last estimate, which the summary shows, was made of.
+std::optional<std::string> what_stands_still(const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay) {
+    if (auto still = lab::standstill(plan, recording, stretch)) return still;
+    const auto last = std::find(replay.status.rbegin(), replay.status.rend(), Status::ok);
+    if (last == replay.status.rend()) return std::nullopt;
+    const double to = replay.t[static_cast<std::size_t>(replay.status.rend() - last) - 1];
+    const double from = std::max(to - (plan.samples_to_first_estimate() - 1) * plan.period, replay.t.front());
+    const auto still = lab::standstill(plan, recording, {from, to});
+    return still ? std::optional(fmt::format("behind the last estimate, from {:.6g} to {:.6g} s: {}", from, to, *still)) : std::nullopt;
+}
+
 bool every_window_is_singular(const lab::ReplaySummary& summary) {
     return summary.count[static_cast<std::size_t>(Status::ok)] == 0 && summary.count[static_cast<std::size_t>(Status::singular)] > 0;
 }
@@ -89,7 +102,7 @@ int replay(const ReplayOptions& options) {
     if (const auto advice = lab::advice_on_domain(*plan, *replay)) diagnostics.note(options.model, *advice);
     const lab::ReplaySummary summary = lab::summarise(*replay);
     if (summary.count[static_cast<std::size_t>(Status::ok)] > 0) {
-        if (const auto still = lab::standstill(*plan, *recording, *stretch)) diagnostics.note(options.recordings[0], *still);
+        if (const auto still = what_stands_still(*plan, *recording, *stretch, *replay)) diagnostics.note(options.recordings[0], *still);
     }
     if (!write_outputs(options, *plan, *recording, *replay, summary, diagnostics)) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);

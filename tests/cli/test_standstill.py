@@ -49,6 +49,11 @@ class Standstill(CommandLine):
             self.assertGreater(status["ok"], 0)
             self.assertIn(f"note: {SAID}: i scatters about a constant, all else is constant", err)
 
+    def test_rest_behind_the_last_estimate_is_said(self):
+        """It moves for a tenth of a second, then rests: what the summary shows at last is made of noise."""
+        _, err = self.replay(RL, recording(lambda k: 12.0 + 6.0 * (k // 40 % 2) if k < 1000 else 12.0))
+        self.assertIn(f"behind the last estimate, from 0.1299 to 0.1499 s: {SAID}", err)
+
     def test_what_moves_is_not_suspected(self):
         switching = random.Random(5)
         levels = [12.0 + 6.0 * switching.choice((-1, 1)) for _ in range(1500)]   # a command as white as noise, and the current that follows
