@@ -109,7 +109,7 @@ std::string number_text(std::optional<double> value) { return value ? fmt::forma
 /// Continuous-time poles, one a line.
 std::string poles_text(const plan::Plan& plan, const lab::ReplaySummary& summary) {
     const auto system = system_of(plan, summary);
-    std::string out = system ? "\npoles [rad/s]\n" : "";
+    std::string out = system ? "\npoles of the last ok sample [rad/s]\n" : "";
     for (const std::complex<double> s : system ? system->poles_s : std::vector<std::complex<double>>()) out += fmt::format("{:>12.6g}  {:>+12.6g} i\n", s.real(), s.imag());
     return out;
 }
