@@ -132,7 +132,7 @@ TEST_CASE("properties of estimates: units do not matter") {
     }();
     rc::prop("volts and amperes with any prefix", [] {
         const int volt = 3 * *rc::gen::inRange(-1, 2), ampere = 3 * *rc::gen::inRange(-1, 2);
-        const std::string estimator = *rc::gen::element<std::string>("solve = \"square\"", "solve = \"robust\"\nsolve_window = 0.02",
+        const std::string estimator = *rc::gen::element<std::string>("solve = \"square\"\ndeviation_limit = 0", "solve = \"robust\"\nsolve_window = 0.02",
                                                                      "solve = \"least_squares\"", "solve = \"robust\"\nsolve_window = 0.02\nengine = \"moments\"");
         const auto from = static_cast<std::ptrdiff_t>(*rc::gen::inRange(0, 1300));
         const std::vector<PmsmSample> some(run.begin() + from, run.begin() + from + 600);
@@ -155,6 +155,6 @@ TEST_CASE("properties of estimates: units do not matter") {
                 RC_ASSERT(relative_error(others[k].parameters[p] * unit[p], si[k].parameters[p]) < bound);
             }
         }
-        RC_ASSERT(compared >= 100);   // S(t) is filled after 500 of the 600 samples
+        RC_ASSERT(compared >= 100);   // S(t) is filled after 500 of the 600 samples; a square solve is not held back by its deviations
     });
 }
