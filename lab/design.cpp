@@ -55,7 +55,7 @@ public:
             }
         }
         out_.recommended = best();
-        out_.reached = out_.recommended && (!options_.accuracy || out_.recommended->error <= *options_.accuracy);
+        out_.reached = out_.recommended && out_.recommended->error <= options_.accuracy.value_or(1.0);   // beyond 1 an estimate is as wide as it is large
         out_.missing = lacking(with_window(out_.recommended ? intervals_of(*out_.recommended) : lengths[lengths.size() / 2]));
         return out_;
     }

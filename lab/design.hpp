@@ -39,7 +39,7 @@ struct Design {
     std::vector<Trial> others;           ///< with other kappa or more rows
     Reference reference;
     std::optional<Trial> recommended;    ///< empty: no trial had estimates, or none of a parameter that rises above its scatter
-    bool reached;                        ///< the recommended one has the accuracy asked for, if one was
+    bool reached;                        ///< the recommended one has the accuracy asked for; where none was, an error of 1 at most
     std::vector<std::string> missing;    ///< what the recording does not excite
 };
 
