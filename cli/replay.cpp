@@ -4,17 +4,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_answer.hpp"
+#include "cli/replay_remarks.hpp"
 #include "generator/generate.hpp"
-#include "lab/discrete_system.hpp"
 #include "lab/replay_report.hpp"
-#include "lab/standstill.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {
@@ -64,21 +61,6 @@ bool write_outputs(const ReplayOptions& options, const plan::Plan& plan, const l
     return lab::write_files(files, diagnostics);
 }
 
-/// That nothing moves but noise: in the whole stretch, or in the samples that the last estimate, which the summary shows, was made of.
-std::optional<std::string> what_stands_still(const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay) {
-    if (auto still = lab::standstill(plan, recording, stretch)) return still;
-    const auto last = std::find(replay.status.rbegin(), replay.status.rend(), Status::ok);
-    if (last == replay.status.rend()) return std::nullopt;
-    const double to = replay.t[static_cast<std::size_t>(replay.status.rend() - last) - 1];
-    const double from = std::max(to - (plan.samples_to_first_estimate() - 1) * plan.period, replay.t.front());
-    const auto still = lab::standstill(plan, recording, {from, to});
-    return still ? std::optional(fmt::format("behind the last estimate, from {:.6g} to {:.6g} s: {}", from, to, *still)) : std::nullopt;
-}
-
-bool every_window_is_singular(const lab::ReplaySummary& summary) {
-    return summary.count[static_cast<std::size_t>(Status::ok)] == 0 && summary.count[static_cast<std::size_t>(Status::singular)] > 0;
-}
-
 }  // namespace
 
 plan::Scalar scalar_of(const ReplayOptions& options) { return options.scalar == "float" ? plan::Scalar::float32 : plan::Scalar::float64; }
@@ -99,17 +81,13 @@ int replay(const ReplayOptions& options) {
     for (const std::string& text : plan->notes) diagnostics.note(options.model, text);
     const auto replay = run(options, *plan, *recording, *stretch, diagnostics);
     if (!replay) return fail(diagnostics, options.json);
-    if (const auto advice = lab::advice_on_domain(*plan, *replay)) diagnostics.note(options.model, *advice);
     const lab::ReplaySummary summary = lab::summarise(*replay);
-    if (summary.count[static_cast<std::size_t>(Status::ok)] > 0) {
-        if (const auto still = what_stands_still(*plan, *recording, *stretch, *replay)) diagnostics.note(options.recordings[0], *still);
-    }
+    add_remarks(options.model, *plan, *recording, *stretch, *replay, summary, diagnostics);
     if (!write_outputs(options, *plan, *recording, *replay, summary, diagnostics)) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);
     for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
 
-    if (const auto missing = what_is_missing(*plan, *replay, summary)) note(*missing);
-    else if (plan->functional == plan::Functional::annihilator && !plan->discrete && every_window_is_singular(summary)) note(fmt::format("no window tells all unknowns apart; what this recording does not excite is said by: algest design {} {}", options.model, options.recordings[0]));
+    if (const auto lacks = what_it_lacks(options.model, options.recordings[0], *plan, *replay, summary)) note(*lacks);
     if (options.json) print_json(replay_json(options.model, options.recordings[0], *plan, *replay, summary));
     else print(replay_text(*plan, *replay, summary));
     return exit_done;

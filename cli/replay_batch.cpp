@@ -9,6 +9,7 @@
 #include "cli/messages.hpp"
 #include "generator/generate.hpp"
 #include "lab/batch.hpp"
+#include "lab/doubt.hpp"
 
 namespace algest::cli {
 
@@ -18,13 +19,27 @@ using nlohmann::ordered_json;
 
 ordered_json number_or_null(std::optional<double> value) { return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr); }
 
-ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, const lab::Batch& batch) {
+using Doubts = std::vector<std::optional<std::string>>;
+
+/// Of each parameter of the batch, by its declaration in the model.
+Doubts doubts(const model::Model& model, const plan::Plan& plan, const lab::Batch& batch) {
+    Doubts out(batch.parameters.size());
+    for (std::size_t p = 0; p < out.size(); ++p) {
+        const auto declared = std::find_if(model.parameters.begin(), model.parameters.end(), [&](const model::Parameter& d) { return d.name == plan.parameters[p].name; });
+        const lab::BatchParameter& found = batch.parameters[p];
+        if (found.value && declared != model.parameters.end()) out[p] = lab::doubt(*declared, *found.value, found.deviation);
+    }
+    return out;
+}
+
+ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, const lab::Batch& batch, const Doubts& doubts) {
     ordered_json parameters = ordered_json::array();
     for (std::size_t p = 0; p < batch.parameters.size(); ++p) {
         parameters.push_back({{"name", plan.parameters[p].name},
                               {"unit", plan.parameters[p].unit},
                               {"value", number_or_null(batch.parameters[p].value)},
-                              {"sd", number_or_null(batch.parameters[p].deviation)}});
+                              {"sd", number_or_null(batch.parameters[p].deviation)},
+                              {"doubt", doubts[p] ? ordered_json(*doubts[p]) : ordered_json(nullptr)}});
     }
     ordered_json confusions = ordered_json::array();
     for (const lab::Confusion& c : batch.confusions) confusions.push_back({{"unknowns", c.unknowns}, {"hardly", c.hardly}, {"text", c.text}});
@@ -39,7 +54,7 @@ ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, co
             {"confused", std::move(confusions)}};
 }
 
-std::string batch_text(const plan::Plan& plan, const lab::Batch& batch) {
+std::string batch_text(const plan::Plan& plan, const lab::Batch& batch, const Doubts& doubts) {
     std::size_t width = std::string("parameter").size();
     for (const plan::Parameter& p : plan.parameters) width = std::max(width, p.name.size());
     const auto text = [](std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : "-"; };
@@ -49,6 +64,7 @@ std::string batch_text(const plan::Plan& plan, const lab::Batch& batch) {
     }
     out += fmt::format("\n{} samples, rows of {} instants; condition {:.6g}; residuals correlated over {:.3g} instants\n", batch.samples, batch.instants, batch.condition, batch.memory);
     for (const lab::Confusion& c : batch.confusions) out += (c.hardly ? "hardly identifiable from this recording: " : "not identifiable from this recording: ") + c.text + "\n";
+    for (const auto& d : doubts) if (d) out += "doubtful: " + *d + "\n";
     return out;
 }
 
@@ -59,12 +75,16 @@ int replay_batch(const ReplayOptions& options, const lab::Stretch& stretch) {
     const auto plan = generator::plan_from_model(options.model, {}, diagnostics);
     const auto recording = lab::read_recording(options.recordings[0], diagnostics, options.csv, lab::TimeBase::increasing);
     if (!plan || !recording) return fail(diagnostics, options.json);
+    Diagnostics said_before;   // by plan_from_model, of the same file
+    const auto model = model::read(options.model, false, said_before);
+    if (!model) return fail(said_before, options.json);
     const auto batch = lab::batch(*plan, *recording, stretch, diagnostics);
     if (!batch) return fail(diagnostics, options.json);
     for (const std::string& text : plan->notes) diagnostics.note(options.model, text);
     print_diagnostics(diagnostics);
-    if (options.json) print_json(batch_json(options, *plan, *batch));
-    else print(batch_text(*plan, *batch));
+    const Doubts against = doubts(*model, *plan, *batch);
+    if (options.json) print_json(batch_json(options, *plan, *batch, against));
+    else print(batch_text(*plan, *batch, against));
     return batch->determined() ? exit_done : exit_no;
 }
 

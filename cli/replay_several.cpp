@@ -9,6 +9,7 @@
 #include "cli/messages.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_answer.hpp"
+#include "cli/replay_remarks.hpp"
 #include "generator/generate.hpp"
 
 namespace algest::cli {
@@ -23,7 +24,12 @@ ordered_json answer(const ReplayOptions& options, const plan::Plan& plan, const 
     const auto recording = lab::read_recording(file, diagnostics, options.csv);
     auto replay = recording ? lab::replay(plan, *recording, stretch, diagnostics) : std::nullopt;
     if (replay) lab::add_deviations(plan, *recording, 1, *replay);
-    ordered_json out = replay ? replay_json(options.model, file, plan, *replay, lab::summarise(*replay)) : ordered_json{{"recording", file}, {"error", errors_json(diagnostics)}};
+    const lab::ReplaySummary summary = replay ? lab::summarise(*replay) : lab::ReplaySummary();
+    if (replay) {
+        add_remarks(options.model, plan, *recording, stretch, *replay, summary, diagnostics);
+        if (const auto lacks = what_it_lacks(options.model, file, plan, *replay, summary)) diagnostics.note(file, *lacks);
+    }
+    ordered_json out = replay ? replay_json(options.model, file, plan, *replay, summary) : ordered_json{{"recording", file}, {"error", errors_json(diagnostics)}};
     out["messages"] = ordered_json::array();
     for (const Diagnostic& d : diagnostics.sorted()) out["messages"].push_back(d.text());
     return out;

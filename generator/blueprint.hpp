@@ -81,6 +81,9 @@ struct BlueprintData {
     bool rows_published;
     int shortest;
     EliminationData<S> elimination = {};
+    S margin_over_noise = S(0);
+    int output = 0;
+    S output_noise = S(0);
 
     /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
     algest::Blueprint<S> view() const {
@@ -100,7 +103,10 @@ struct BlueprintData {
                 rows_published,
                 shortest,
                 {noise_floor.data(), static_cast<int>(noise_floor.size())},
-                {sizes.data(), static_cast<int>(sizes.size())}};
+                {sizes.data(), static_cast<int>(sizes.size())},
+                margin_over_noise,
+                static_cast<std::uint16_t>(output),
+                output_noise};
     }
 
 private:
@@ -199,6 +205,9 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
         for (const Lumped& u : plan.lumped) data.sizes.push_back(std::isfinite(u.initial) ? static_cast<S>(std::abs(u.initial)) : S(0));
     }
     data.elimination = make_elimination<S>(plan.elimination);
+    data.margin_over_noise = static_cast<S>(plan.margin_over_noise);
+    data.output = plan.output;
+    data.output_noise = static_cast<S>(plan.output_noise);
     if (plan.ratio) {
         const auto s = [](double x) { return static_cast<S>(x); };
         const std::vector<double>& t = plan.ratio->transition;

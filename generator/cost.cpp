@@ -29,12 +29,13 @@ int accumulators(const Plan& plan, int signals) {
 int instance_bytes(const Plan& plan) {
     const int unknowns = static_cast<int>(plan.lumped.size());
     const int signals = plan.rings();
-    int scalars = sum_scalars(plan.solve, unknowns, plan.solve_instants);
+    const bool above_noise = plan.margin_over_noise > 0.0;
+    int scalars = sum_scalars(plan.solve, unknowns, plan.solve_instants, above_noise);
     if (plan.moments) {
         scalars += moment_ring(signals, plan.samples()) + 2 * references(plan, signals);
         scalars += published_row_scalars(plan.solve, static_cast<int>(plan.rows.size()), unknowns, static_cast<int>(plan.perturbation.size()));
     } else {
-        scalars += ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + published_scalars(plan.solve, unknowns);
+        scalars += ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + published_scalars(plan.solve, unknowns, above_noise);
     }
     scalars += 2 + static_cast<int>(plan.parameters.size());   // Estimate: status padded to a scalar, condition, parameters
     if (plan.whiten) scalars += unknowns;
@@ -85,6 +86,26 @@ long moment_rows(const Plan& plan, const plan::RowData<double>& rows) {
     return out;
 }
 
+/// What the margin over noise takes: at each operating point in push(), and in estimate() where that of an elimination is not counted with it.
+Cost margin_cost(const Plan& plan, const plan::RowData<double>& rows) {
+    Cost out{};
+    if (plan.margin_over_noise == 0.0) return out;
+    const long unknowns = static_cast<long>(plan.lumped.size());
+    const long packed = packed_size(static_cast<int>(unknowns));
+    if (plan.normalise) {
+        out.estimate = rows.rows * 2 * packed + triangle_rises_above_cost(static_cast<int>(unknowns));
+        return out;
+    }
+    for (const plan::NoiseChannel& c : plan.noise) {
+        for (const Functional& f : rows.functionals) out.push += f.table != no_table && f.signal == c.signal ? 2 + f.terms : 0;
+    }
+    int inputs = 0;
+    for (std::size_t k = 0; k < plan.noise.size(); ++k) inputs += k == 0 || plan.noise[k].input != plan.noise[k - 1].input ? 1 : 0;
+    out.push += inputs * rows.rows * packed;
+    if (plan.solve == Solve::least_squares) out.estimate = triangle_rises_above_cost(static_cast<int>(unknowns));
+    return out;
+}
+
 }  // namespace
 
 Cost cost_of(const Plan& plan) {
@@ -111,7 +132,10 @@ Cost cost_of(const Plan& plan) {
         out.rows = evaluated(rows) * plan.samples();
         out.push = square ? 0 : out.rows;
         out.estimate = (square ? out.rows : 0) + evaluated(perturbation) * plan.samples();
-        out.table_bytes = tables * plan.samples() * scalar_bytes(plan.scalar);
+        const Cost margin = margin_cost(plan, rows);
+        out.push += margin.push;
+        out.estimate += margin.estimate;
+        out.table_bytes = tables * plan.samples() * scalar_bytes(plan.scalar) + (plan.normalise ? static_cast<long>(plan.noise_floor.size()) * scalar_bytes(plan.scalar) : 0);
     }
     return out;
 }

@@ -318,13 +318,16 @@ std::string derivation_text(const Plan& plan) {
     DataList noise;
     for (const plan::NoiseChannel& c : plan.noise) {
         Data n;
-        n.set("from", plan.inputs[static_cast<std::size_t>(c.input)].name);
+        n.set("from", plan.tape_input(c.input));
         n.set("into", plan.window_signals[static_cast<std::size_t>(c.signal)].text);
-        n.set("size", c.partial < 0 ? fmt::format("{:.6g}", std::abs(c.factor)) : fmt::format("{:.6g} times d({})/d({})", c.factor, plan.window_signals[static_cast<std::size_t>(c.signal)].text, plan.inputs[static_cast<std::size_t>(c.input)].name));
+        n.set("size", c.partial < 0 ? fmt::format("{:.6g}", std::abs(c.factor)) : fmt::format("{:.6g} times d({})/d({})", c.factor, plan.window_signals[static_cast<std::size_t>(c.signal)].text, plan.tape_input(c.input)));
         noise.push_back(n);
     }
     d.set("noise", listed(noise));
     d.set("uncertain", plan.uncertain());
+    d.set("noisy", !plan.noise.empty());
+    d.set("above_noise", plan.margin_over_noise > 0.0);
+    d.set("margin", fmt::format("{:.6g}", plan.margin_over_noise));
     d.set("kernels", kernels_data(plan, false));
     DataList stages;
     for (const std::string& text : elimination_stages(plan)) {

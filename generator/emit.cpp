@@ -149,10 +149,14 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("decimate", std::to_string(plan.decimate));
     d.set("decimated", plan.decimate > 1);
     d.set("uncertain", plan.uncertain());
+    d.set("noisy", !plan.noise.empty());
+    d.set("above_noise", plan.margin_over_noise > 0.0);
+    d.set("points_above_noise", plan.margin_over_noise > 0.0 && !plan.normalise);
+    d.set("rows_above_noise", plan.margin_over_noise > 0.0 && plan.normalise);
     d.set("whitened", plan.whiten);
     d.set("ratio", plan.ratio.has_value());
     d.set("limited_deviation", plan.deviation_limit > 0.0);
-    d.set("has_noise_floor", !plan.noise_floor.empty());
+    d.set("has_noise_floor", !plan.noise_floor.empty() && !plan.normalise);
     d.set("deviation_limit_text", exact::decimal(exact::from_double(plan.deviation_limit)));
     d.set("has_perturbation", !plan.perturbation.empty());
     d.set("discrete", plan.discrete.has_value());
@@ -392,6 +396,14 @@ std::string joined(const std::vector<double>& numbers, const Plan& plan) {
     return out;
 }
 
+/// A line a row, as many numbers each.
+std::string by_row(const std::vector<double>& numbers, const Plan& plan) {
+    std::string out;
+    const auto row = static_cast<std::ptrdiff_t>(numbers.size() / plan.rows.size());
+    for (auto at = numbers.begin(); at != numbers.end(); at += row) out += "\n    " + joined({at, at + row}, plan) + ",";
+    return out + "\n";
+}
+
 /// Literals of type double, whatever the plan's scalar.
 std::string doubles(const std::vector<double>& numbers) {
     std::string out;
@@ -462,18 +474,22 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
         i.set("partial", c.partial == no_partial ? std::string("no_partial") : std::to_string(c.partial));
         i.set("lag", std::to_string(c.lag));
         i.set("factor", literal(c.factor, plan.scalar));
-        i.set("text", plan.inputs[static_cast<std::size_t>(blueprint.noisy[c.input])].name + " in " + plan.window_signals[c.signal].text);
+        i.set("text", plan.tape_input(blueprint.noisy[c.input]) + " in " + plan.window_signals[c.signal].text);
         channels.push_back(i);
     }
     d.set("noise", listed(channels));
     d.set("noise_count", std::to_string(blueprint.noise.size()));
     d.set("noisy_inputs", std::to_string(blueprint.noisy.size()));
     d.set("whiten_at", joined(blueprint.whiten_at, plan));
-    d.set("has_noise_tests", !blueprint.sizes.empty() || !blueprint.noise_floor.empty());
+    d.set("has_noise_tests", !blueprint.sizes.empty() || !blueprint.noise_floor.empty() || plan.margin_over_noise > 0.0);
+    d.set("margin_over_noise", literal(plan.margin_over_noise, plan.scalar));
     d.set("has_sizes", !blueprint.sizes.empty());
     d.set("sizes", joined(blueprint.sizes, plan));
-    d.set("has_noise_floor", !blueprint.noise_floor.empty());
-    d.set("noise_floor", joined(blueprint.noise_floor, plan));
+    d.set("noise_of_rows", plan.normalise && !blueprint.noise_floor.empty());
+    d.set("has_floor_numbers", !blueprint.noise_floor.empty());
+    d.set("output", std::to_string(plan.output));
+    d.set("output_noise", literal(plan.output_noise, plan.scalar));
+    d.set("noise_floor", plan.normalise ? by_row(blueprint.noise_floor, plan) : joined(blueprint.noise_floor, plan));
     d.set("noise_floor_count", std::to_string(blueprint.noise_floor.size()));
     d.set("keep", literal(plan.keep, plan.scalar));
     d.set("condition_limit", literal(plan.condition_limit, plan.scalar));

@@ -64,6 +64,19 @@ std::vector<Rational> response_of(const Reading& reading, const model::Model& mo
     return out;
 }
 
+/// Of what the windows are fed with: a sample, the mean of `decimate` of them, or that of an operating point. A mean over N samples has a deviation
+/// of sigma/sqrt(N), the halves of its ends aside. A block that may drift by `steady` ends half of that away from its mean, and blocks on one approach
+/// to rest drift alike: where rows are pooled that counts in full, as if it were noise.
+Rational deviation_of_sample(const model::Model& model, const model::Signal& signal) {
+    const Rational sigma = signal.noise.value_or(Rational(0));
+    const bool averages = model.estimator.functional == model::Functional::average;
+    const Rational averaged = averages ? Rational(cln::floor1(*model.window / *model.period)) : Rational(model.decimate);
+    const bool pooled = model.estimator.solve == model::Solver::least_squares || model.estimator.solve == model::Solver::elimination;
+    const Rational drift = averages && pooled && signal.steady ? *signal.steady / 2 : Rational(0);
+    if (cln::zerop(drift)) return averaged == 1 ? sigma : sigma * *exact::function_value("sqrt", 1 / averaged);
+    return cln::zerop(sigma) ? drift : *exact::function_value("sqrt", sigma * sigma / averaged + drift * drift);
+}
+
 }  // namespace
 
 NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& input_of_signal, const std::vector<plan::PastInput>& past,
@@ -71,11 +84,10 @@ NoiseChannels noise_channels(const model::Model& model, const std::vector<int>& 
     NoiseChannels out;
     const int inputs = static_cast<int>(std::count_if(input_of_signal.begin(), input_of_signal.end(), [](int i) { return i >= 0; }));
     for (std::size_t s = 0; s < model.signals.size(); ++s) {
-        const auto& sigma = model.signals[s].noise;
         const int input = input_of_signal[s];
-        if (input < 0 || !sigma || cln::zerop(*sigma)) continue;
-        // A mean over N samples has a deviation of sigma/sqrt(N), the halves of its ends aside.
-        const Rational size = model.decimate == 1 ? *sigma : *sigma * *exact::function_value("sqrt", Rational(1) / model.decimate);
+        if (input < 0) continue;
+        const Rational size = deviation_of_sample(model, model.signals[s]);
+        if (cln::zerop(size)) continue;
         std::vector<Reading> readings = {{plan::Op::input, input, 0}, {plan::Op::previous, input, 1}, {plan::Op::derivative, input, 0}};
         for (std::size_t k = 0; k < past.size(); ++k) if (past[k].input == input) readings.push_back({plan::Op::input, inputs + static_cast<int>(k), past[k].samples});
         for (std::size_t w = 0; w < window_operations.size(); ++w) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 #include "algest/packed.hpp"
 
@@ -48,6 +49,26 @@ std::vector<double> noise_floor(const plan::Plan& plan) {
         }
     }
     if (std::all_of(out.begin(), out.end(), [](double x) { return x == 0.0; })) return {};
+    return out;
+}
+
+std::vector<double> noise_of_rows(const plan::Plan& plan) {
+    std::vector<double> out;
+    for (const plan::Row& row : plan.rows) {
+        std::vector<std::vector<double>> columns(plan.lumped.size());
+        for (const plan::RowTerm& term : row.terms) {
+            const std::vector<double>& weights = plan.tables[static_cast<std::size_t>(term.table)].weights;
+            if (weights.empty()) return {};
+            if (term.lumped < 0 || term.signal != plan.output) continue;
+            for (const double w : weights) columns[static_cast<std::size_t>(term.lumped)].push_back(term.factor * w);
+        }
+        for (std::size_t u = 0; u < columns.size(); ++u) {
+            for (std::size_t v = u; v < columns.size(); ++v) {
+                const bool both = !columns[u].empty() && !columns[v].empty();   // else one is of the input
+                out.push_back(both ? std::inner_product(columns[u].begin(), columns[u].end(), columns[v].begin(), 0.0) : 0.0);
+            }
+        }
+    }
     return out;
 }
 

@@ -80,10 +80,20 @@ private:
         if (model_.window) plan_.intervals = cln::cl_I_to_int(cln::numerator(*model_.window / *model_.period));
         plan_solver(model_, plan_);
         plan_discrete(model_, options_, plan_);
+        margin_of_discrete_rows();
         plan_.moments = moments(model_, options_.engine, plan_, diagnostics_);   // says that they will not do
         plan_.kept = kept_samples(plan_.solve, 0, false, false);
         if (!within_limits(model_, plan_, diagnostics_)) return std::nullopt;
         return std::move(plan_);
+    }
+
+    void margin_of_discrete_rows() {
+        if (!plan_.normalise) return;
+        const model::Signal& output = *model_.signal(model_.discrete->output);
+        while (plan_.inputs[static_cast<std::size_t>(plan_.output)].name != output.name) ++plan_.output;
+        if (output.noise && model_.estimator.uncertainty.value_or(true)) plan_.output_noise = exact::nearest(*output.noise, plan_.scalar);
+        plan_.noise_floor = noise_of_rows(plan_);
+        if (!plan_.noise_floor.empty()) plan_.margin_over_noise = floor_over_noise;
     }
 
     bool what_is_missing() {
@@ -345,12 +355,14 @@ private:
             if (options_.weights || t.kernel.empty()) t.weights = functional_->weights(equation_of_table_[k], t.derivative, {t.p, t.perturbation}, t.hold);
         }
         const model::Estimator& e = model_.estimator;
-        if (e.solve == model::Solver::least_squares || e.solve == model::Solver::elimination || !e.uncertainty.value_or(true)) return;
+        const bool pooled = e.solve == model::Solver::least_squares || e.solve == model::Solver::elimination;
+        if ((pooled && !averages()) || !e.uncertainty.value_or(true)) return;
         if (e.solve == model::Solver::robust && !e.has_window()) return;   // S(t) keeps 32 of its instants for uncertainty(), and these share no samples
         noise_ = noise_channels(model_, input_of_signal_, plan_.past, window_operations_, plan_.scalar, tape);
         plan_.noise = noise_.channels;
+        if (pooled && !plan_.noise.empty()) plan_.margin_over_noise = floor_over_noise;
         for (const NoiseChannels::Partial& p : noise_.partials) {
-            plan_.partials.push_back("d(" + plan_.window_signals[static_cast<std::size_t>(p.signal)].text + ")/d(" + plan_.inputs[static_cast<std::size_t>(p.input)].name + ")");
+            plan_.partials.push_back("d(" + plan_.window_signals[static_cast<std::size_t>(p.signal)].text + ")/d(" + plan_.tape_input(p.input) + ")");
             tape.result(p.operation);
         }
     }

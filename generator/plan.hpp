@@ -294,7 +294,12 @@ struct Plan {
     int kept;                  ///< samples that the rings keep beyond one window
     std::vector<NoiseChannel> noise;     ///< sorted by input; empty: no uncertainty()
     double deviation_limit;    ///< 0: not asked
-    std::vector<double> noise_floor;     ///< robust: what noise may make of S(t), packed upper triangle of the unknowns; empty: not asked
+    double margin_over_noise = 0.0;      ///< operating points, rows of z and q: they must see every combination of the unknowns by this many times the
+                                         ///< square of what noise of the means, or of the output, puts there; 0: not asked
+    int output = 0;                      ///< of z and q: the window signal of the output
+    double output_noise = 0.0;           ///< its declared standard deviation
+    std::vector<double> noise_floor;     ///< robust: what noise may make of S(t), packed upper triangle of the unknowns; empty: not asked. Of z and q:
+                                         ///< row after row, what noise of deviation 1 in the output makes of it
     bool whiten;
     std::optional<RatioFilter> ratio;
     std::optional<Elimination> elimination;   ///< with solve = elimination
@@ -307,7 +312,13 @@ struct Plan {
     int rings() const { return static_cast<int>(window_signals.size() + partials.size()); }
     /// That are estimated; perturbations stand behind them.
     int estimated() const { return static_cast<int>(parameters.size() - perturbation.size()); }
-    bool uncertain() const { return !noise.empty(); }
+    /// True where uncertainty() is served; pooled rows know their noise by its margin alone.
+    bool uncertain() const { return !noise.empty() && margin_over_noise == 0.0; }
+    /// What the signals' tape reads as its input k: a quantity that is averaged, or what is fed.
+    const std::string& tape_input(int k) const {
+        const std::size_t i = static_cast<std::size_t>(k);
+        return steady ? steady->averaged[i].name : inputs[i].name;
+    }
     int longest_wait() const {
         int longest = 0;
         for (const Input& i : inputs) longest = i.wait > longest ? i.wait : longest;

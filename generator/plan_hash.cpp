@@ -141,6 +141,8 @@ std::string plan_hash(const plan::Plan& plan) {
     hash.add(plan.deviation_limit);
     if (plan.deviation_limit > 0.0) for (const plan::Lumped& u : plan.lumped) hash.add(u.initial);
     for (const double x : plan.noise_floor) hash.add(x);
+    if (plan.margin_over_noise > 0.0) hash.add(plan.margin_over_noise);
+    if (plan.discrete) hash.add(plan.output_noise);
     hash.add(plan.whiten);
     if (plan.longest_wait() > 0) for (const plan::Input& i : plan.inputs) hash.add(i.wait);
     if (plan.whiten) for (const plan::Lumped& u : plan.lumped) hash.add(u.initial);

@@ -37,9 +37,9 @@ public:
           moments_(host_moments<S>(plan)),
           rings_(size(plan.moments ? moment_ring(blueprint_.signals, blueprint_.samples)
                                    : ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
-          sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
+          sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants, plan.margin_over_noise > 0.0))),
           published_(size(plan.moments ? published_row_scalars(blueprint_.solve, blueprint_.rows.rows, blueprint_.unknowns, blueprint_.perturbation.rows)
-                                       : published_scalars(blueprint_.solve, blueprint_.unknowns))),
+                                       : published_scalars(blueprint_.solve, blueprint_.unknowns, plan.margin_over_noise > 0.0))),
           whitened_at_(blueprint_.whiten_at),
           ratio_(size(ratio_scalars(blueprint_.ratio.used, blueprint_.unknowns))),
           boxcar_(size(boxcar_scalars(blueprint_.signals))),
@@ -47,7 +47,7 @@ public:
           push_scratch_(size(push_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns))),
           estimate_scratch_(size(uncertainty_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns,
                                                      plan.solve_instants) +
-                                 packed_size(blueprint_.unknowns) + elimination_scratch(blueprint_.elimination.view()))),
+                                 packed_size(blueprint_.unknowns) + above_noise_scratch(blueprint_.unknowns) + elimination_scratch(blueprint_.elimination.view()))),
           waiting_(size(plan.longest_wait() + 1) * plan.inputs.size()),
           aligned_(plan.inputs.size()),
           previous_(plan.inputs.size()),
@@ -177,7 +177,7 @@ public:
         CandidateList<S> list{found.data(), most_candidates, 0};
         const int columns = blueprint_.unknowns;
         if (plan_->elimination && progress_.absorbed != 0U) {
-            (void)eliminate(blueprint_.elimination.view(), sums_.data(), columns, estimate_scratch_.data(), lumped_.data(), &list);
+            (void)eliminate(blueprint_.elimination.view(), sums_.data(), columns, estimate_scratch_.data(), lumped_.data(), NoiseMargin<S>{nullptr, S(0)}, &list);
         }
         std::vector<Candidate<double>> out;
         for (int k = 0; k < list.count; ++k) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "lab/discrete_system.hpp"
 #include "lab/figure_parts.hpp"
 #include "lab/mathml.hpp"
 #include "lab/quantity.hpp"
@@ -24,6 +25,26 @@ DataList parameters_data(const Replayed& r) {
         set_text(data, "unit", unit_text(r.plan.parameters[p].unit));
         set_quantity(data, "last_", r.summary.last[p].value_or(nothing), r.summary.deviation[p].value_or(0));
         set_quantity(data, "median_", r.summary.median[p].value_or(nothing), 0);
+        list.push_back(data);
+    }
+    return list;
+}
+
+/// Continuous-time poles of the last ok sample; none where the plan is not discrete-time.
+DataList poles_data(const Replayed& r) {
+    DataList list;
+    if (!r.plan.discrete || !r.summary.condition_last) return list;
+    std::vector<double> last;
+    for (const std::optional<double> value : r.summary.last) last.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    const auto system = discrete_system(r.plan, last);
+    if (!system) return list;
+    for (const std::complex<double> pole : system->poles_s) {
+        const double size = std::abs(pole);
+        Data data;
+        set_quantity(data, "real_", pole.real(), 0);
+        set_quantity(data, "imaginary_", pole.imag(), 0);
+        set_quantity(data, "size_", size, 0);
+        set_quantity(data, "damping_", size > 0 ? -pole.real() / size : std::numeric_limits<double>::quiet_NaN(), 0);
         list.push_back(data);
     }
     return list;
@@ -108,6 +129,7 @@ std::string replay_report(const Replayed& r, const PageFrame& frame, const Draw&
     page.set("single_precision", r.plan.scalar == plan::Scalar::float32);
     page.set("uncertain", r.plan.uncertain());
     set_list(page, "parameters", parameters_data(r));
+    set_list(page, "poles", poles_data(r));
     set_list(page, "estimates", estimates_data(r, figures));
     set_list(page, "statuses", statuses_data(r));
     page.set("has_condition", r.summary.condition_last.has_value());

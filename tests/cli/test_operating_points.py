@@ -72,6 +72,30 @@ class OperatingPoints(CommandLine):
         _, err = self.algest("replay", "points.toml", "run.csv")
         self.assertIn(missing, err)
 
+    def test_what_noise_alone_tells_apart_is_named(self):
+        """y = a x + c at one x, which scatters within its tolerance: a line through one point."""
+        linear = (MODEL.replace('a = { unit = "V", initial = 1 }', 'a = { unit = "V", initial = 1 }\nc = { unit = "V^2", initial = 1 }').replace('b = { unit = "1", initial = 1 }\n', "")
+                  .replace('"y = 2*a*x - a^2 + b^2*w^2"', '"y = a*x + c"').replace('w = { unit = "V" }\n', "").replace('"elimination"', '"least_squares"'))
+        self.write("linear.toml", linear)
+
+        def rows(xs):
+            out = ["t [s],x [V],y [V^2]"]
+            for x in xs:
+                out += [f"{(len(out) - 1 + k) / 100:.2f},{x!r},{1.5 * x + 0.5!r}" for k in range(8)]
+            return "\n".join(out) + "\n"
+
+        self.write("run.csv", rows([1.0, 1.0004, 0.9997, 1.0002]))
+        found = self.algest_json("replay", "linear.toml", "run.csv")
+        self.assertEqual(found["status"]["ok"], 0)
+        self.assertEqual(found["missing"], ["not identifiable from these data: a, c: needs a second value of x, y, the same at all of 4 operating points"])
+        self.write("run.csv", rows([1.0, 1.5, 2.0]))
+        found = self.algest_json("replay", "linear.toml", "run.csv")
+        self.assertAlmostEqual(found["parameters"][0]["last"], 1.5, delta=1e-12)
+        # nobody asked whether the means are exact
+        self.write("linear.toml", linear.replace('solve = "least_squares"', 'solve = "least_squares"\nuncertainty = false'))
+        self.write("run.csv", rows([1.0, 1.0004, 0.9997, 1.0002]))
+        self.assertGreater(self.algest_json("replay", "linear.toml", "run.csv")["status"]["ok"], 0)
+
     def test_nothing_steady(self):
         rows = ["t [s],x [V],w [V],y [V^2]"] + [f"{k / 100:.2f},{k / 100!r},1,1" for k in range(60)]
         self.write("run.csv", "\n".join(rows) + "\n")

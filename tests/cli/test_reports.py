@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--report of replay and simulate, opened in a browser: nothing overlaps or is cut, every axis has its unit, nothing comes from elsewhere."""
+import math
 import os
 import re
 import unittest
@@ -58,6 +59,43 @@ class Reports(CommandLine):
             self.algest(command, "rl.toml", "coil.csv", "-o", folder / "values.csv", "--report", folder / "page.html")
             for width in (1100, 500):
                 self.assertEqual(faults(folder / "page.html", PLAIN, width), [])
+
+    def test_the_poles_of_a_discrete_model(self):
+        self.write("poles.toml", """format = 1
+name = "poles"
+[sampling]
+period = 0.01
+window = 1.2
+[signals]
+u = { unit = "V", hold = "zoh" }
+y = { unit = "rad/s" }
+[discrete]
+domain = "q"
+n = 2
+skip = 3
+extra = 6
+[estimator]
+functional = "discrete"
+""")
+        # Poles at -4 and -15 rad/s, gain 3; steps of 1 V, superposed.
+        def step(t):
+            return 0.0 if t < 0 else 3 * (1 - (15 * math.exp(-4 * t) - 4 * math.exp(-15 * t)) / 11)
+        rows = ["t [s],u [V],y [rad/s]"]
+        for k in range(300):
+            t = k / 100
+            rows.append(f"{t:.2f},{1 if k % 80 < 40 else -1},{step(t) + 2 * sum((-1) ** j * step(t - 0.4 * j) for j in range(1, 8))!r}")
+        self.write("poles.csv", "\n".join(rows) + "\n")
+        page, _ = self.page("replay", "poles.toml", "poles.csv")
+        text = page.read_text(encoding="utf-8")
+        self.assertEqual(page_faults(text), [])
+        table = re.search(r'<table id="poles">.*?</table>', text, re.S)[0]
+        self.assertIn("pole, real part [rad/s]", table)
+        found = re.findall(r'<tr><td class="n">([^<]*)</td><td class="n">([^<]*)</td>', table)
+        self.assertEqual([round(float(real.replace("\u2212", "-")), 3) for real, _ in found], [-4.0, -15.0])
+        for width in (1100, 500):
+            self.assertEqual(faults(page, PLAIN, width), [])
+        self.algest("replay", "rl.toml", "coil.csv", "--report", "none.html")
+        self.assertNotIn('id="poles"', (self.folder / "none.html").read_text(encoding="utf-8"))
 
     def test_replay(self):
         page, said = self.page("replay", "limited.toml", "holes.csv")

@@ -49,6 +49,17 @@ class Standstill(CommandLine):
             self.assertGreater(status["ok"], 0)
             self.assertIn(f"note: {SAID}: i scatters about a constant, all else is constant", err)
 
+    def test_several_recordings_say_what_one_says(self):
+        self.write("m.toml", RL)
+        self.write("moves.csv", recording(lambda k: 12.0 + 6.0 * (k // 40 % 2)))
+        self.write("rests.csv", recording(lambda k: 12.0))
+        _, err = self.algest("replay", "m.toml", "moves.csv", "rests.csv")
+        self.assertIn(f"rests.csv: note: {SAID}", err)
+        self.assertNotIn("moves.csv: note", err)
+        self.write("m.toml", NOISY)
+        _, err = self.algest("replay", "m.toml", "moves.csv", "rests.csv")
+        self.assertIn("rests.csv: note: no window tells all unknowns apart; what this recording does not excite is said by: algest design m.toml rests.csv", err)
+
     def test_rest_behind_the_last_estimate_is_said(self):
         """It moves for a tenth of a second, then rests: what the summary shows at last is made of noise."""
         _, err = self.replay(RL, recording(lambda k: 12.0 + 6.0 * (k // 40 % 2) if k < 1000 else 12.0))

@@ -123,6 +123,10 @@ class Servo(unittest.TestCase):
         self.assertLess(abs(value["kt"] / PUBLISHED["kt"] - 1), 0.05)
         self.assertLess(abs(value["J"] / PUBLISHED["J"] - 1), 0.1)
         self.assertGreater(value["Fc"], 3 * sd["Fc"])
+        # A back-EMF constant that comes out below zero, within two deviations of it, is marked.
+        code, answer, said = replay(known_load(self.folder), SHARED / "recordings/servo_lift_and_drop.csv", "--batch", *RECORDINGS["lift_and_drop"])
+        doubts = {p["name"]: p["doubt"] for p in answer["parameters"]}
+        self.assertRegex(doubts["kt"], r"kt = -0\.147 is 1\.9 of its standard deviations and hardly told from zero, and contradicts min = 0")
         # The same combination R/kt mgl, whichever of the two is known.
         _, with_r, _, _ = table["sin_time_square", "R"]
         self.assertAlmostEqual(R / with_r["kt"] * with_r["mgl"], value["R"] / value["kt"] * LOAD, delta=1e-9)

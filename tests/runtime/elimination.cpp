@@ -45,7 +45,7 @@ struct Parabola {
             add_rows(triangle.data(), row, 1, 2, S(1));
         }
         std::vector<S> scratch(static_cast<std::size_t>(elimination_scratch(e)));
-        solved = eliminate(e, triangle.data(), 2, scratch.data(), &solution, &list);
+        solved = eliminate(e, triangle.data(), 2, scratch.data(), &solution, {nullptr, S(0)}, &list);
     }
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "algest/arithmetic.hpp"
+#include "algest/noise_gram.hpp"
 #include "algest/packed.hpp"
 #include "algest/plane_polynomial.hpp"
 #include "algest/polynomial_roots.hpp"
@@ -89,6 +90,13 @@ struct CandidateList {
     int count;
 };
 
+/// What noise makes of the columns, packed as add_noise sums it, and how far the rows must stand above it; nullptr: not asked.
+template <class S>
+struct NoiseMargin {
+    const S* gram;
+    S margin;
+};
+
 namespace detail {
 
 /// Newton's method doubles the digits with every step: four bring the two digits of kept_within to sixteen; the others are for a root that the
@@ -111,7 +119,7 @@ constexpr int stage_scratch(const EliminationStage& s) noexcept {
     const int degree = s.y == no_parameter ? 0 : degree_in_y(s);
     const int roots = 3 * (degree + 1) + real_roots_scratch(degree) + 2 * root_places(degree);
     const int inner = s.x == no_parameter ? 0 : (s.degree_of_first + 1) + real_roots_scratch(s.degree_of_first) + 2 * root_places(s.degree_of_first);
-    const int judged = s.alone + triangle_scalars(n) + (n + 1) + solve_triangle_scratch(n) + n;
+    const int judged = s.alone + triangle_scalars(n) + (n + 1) + solve_triangle_scratch(n) + n + n * n + 2 * s.columns * n;
     return s.summands + s.columns * plane + gradient + roots + inner + judged;
 }
 
@@ -369,9 +377,74 @@ inline Solved<S> condition_at(const Trial<S>& t, S x, S y, S* work) noexcept {
     return solve_triangle(triangle, n, scratch, nothing);
 }
 
+/// What the columns of the stage do with its unknowns at a point: columns x unknowns_of(s), those alone first, then x and y. values: of
+/// the summands, as residual_polynomials leaves them.
+template <class S>
+inline void column_slopes(const Trial<S>& t, const S* values, S x, S y, S* slopes) noexcept {
+    const EliminationStage& s = t.s;
+    const int n = unknowns_of(s);
+    const auto power = [](S base, int exponent) {
+        S out = S(1);
+        for (int k = 0; k < exponent; ++k) out *= base;
+        return out;
+    };
+    for (int k = 0; k < s.columns * n; ++k) slopes[k] = S(0);
+    for (int a = 0; a < s.alone; ++a) slopes[a * n + a] = t.e.alone[s.first_alone + a].coefficient;
+    for (int k = 0; k < s.summands; ++k) {
+        const std::uint8_t* const exponents = t.e.exponents.data + (s.first_summand + k) * t.e.parameters;
+        S* const slope = slopes + t.e.column_of[s.first_summand + k] * n + s.alone;
+        const int i = s.x == no_parameter ? 0 : exponents[s.x];
+        const int j = s.y == no_parameter ? 0 : exponents[s.y];
+        if (i > 0) slope[0] += values[k] * S(i) * power(x, i - 1) * power(y, j);
+        if (j > 0) slope[s.x == no_parameter ? 0 : 1] += values[k] * S(j) * power(x, i) * power(y, j - 1);
+    }
+}
+
+/// True where the rows see every combination of the stage's unknowns by more than noise does. work: as condition_at left it, which has J'J of
+/// the stage in its triangle; values: of the summands.
+template <class S>
+inline bool stage_rises_above(const Trial<S>& t, NoiseMargin<S> noise, const S* values, S x, S y, S* work) noexcept {
+    const EliminationStage& s = t.s;
+    const int n = unknowns_of(s);
+    const int width = t.width - 1;
+    S* const of_unknowns = work + triangle_scalars(n) + (n + 1) + solve_triangle_scratch(n) + n;
+    S* const slopes = of_unknowns + n * n;
+    S* const half = slopes + s.columns * n;   // N times the slopes
+    column_slopes(t, values, x, y, slopes);
+    for (int r = 0; r < s.columns; ++r) {
+        for (int u = 0; u < n; ++u) {
+            S sum = S(0);
+            for (int c = 0; c < s.columns; ++c) sum += noise.gram[packed_index(width, s.first_column + (r < c ? r : c), s.first_column + (r < c ? c : r))] * slopes[c * n + u];
+            half[r * n + u] = sum;
+        }
+    }
+    for (int u = 0; u < n; ++u) {
+        for (int v = 0; v < n; ++v) {
+            S sum = S(0);
+            for (int r = 0; r < s.columns; ++r) sum += slopes[r * n + u] * half[r * n + v];
+            of_unknowns[u * n + v] = sum;
+        }
+    }
+    return triangle_rises_above(work, n, noise.margin, of_unknowns);
+}
+
+/// Multiply-adds and divisions of stage_rises_above, at most.
+template <class S>
+constexpr long stage_rises_above_cost(const Elimination<S>& e, const EliminationStage& s) noexcept {
+    const long n = unknowns_of(s);
+    long slopes = 0;
+    for (int k = 0; k < s.summands; ++k) {
+        const std::uint8_t* const exponents = e.exponents.data + (s.first_summand + k) * e.parameters;
+        const int degree = (s.x == no_parameter ? 0 : exponents[s.x]) + (s.y == no_parameter ? 0 : exponents[s.y]);
+        slopes += degree == 0 ? 0 : 2L * (degree + 2);
+    }
+    return slopes + s.columns * s.columns * n + s.columns * n * n + triangle_rises_above_cost(unknowns_of(s));
+}
+
 /// Solves one stage; writes its parameters, in their sizes.
 template <class S>
-inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triangle, int width, S* scratch, S* parameters, CandidateList<S>* candidates) noexcept {
+inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triangle, int width, NoiseMargin<S> noise, S* scratch, S* parameters,
+                             CandidateList<S>* candidates) noexcept {
     const EliminationStage& s = e.stages[stage];
     const Solved<S> singular = {false, std::numeric_limits<S>::infinity()};
     S* const values = scratch;
@@ -388,12 +461,13 @@ inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triang
     if (s.x != no_parameter) parameters[s.x] = (s.squares & 1U) != 0U ? S(std::sqrt(t.best.x)) : t.best.x;
     if (s.y != no_parameter) parameters[s.y] = (s.squares & 2U) != 0U ? S(std::sqrt(t.best.y)) : t.best.y;
     const Solved<S> solved = condition_at(t, t.best.x, t.best.y, work);
-    return answer ? solved : singular;
+    const bool above = noise.gram == nullptr || stage_rises_above(t, noise, values, t.best.x, t.best.y, work);
+    return !answer ? singular : above ? solved : Solved<S>{false, solved.condition};
 }
 
-/// Multiply-adds and divisions of solve_stage, at most; products by zero are counted.
+/// Multiply-adds and divisions of solve_stage, at most; products by zero are counted. above_noise: with a margin over noise.
 template <class S>
-constexpr long stage_cost(const Elimination<S>& e, int stage) noexcept {
+constexpr long stage_cost(const Elimination<S>& e, int stage, bool above_noise) noexcept {
     const EliminationStage& s = e.stages[stage];
     const PlaneDegrees degrees = degrees_of(s);
     const int n = unknowns_of(s);
@@ -404,7 +478,8 @@ constexpr long stage_cost(const Elimination<S>& e, int stage) noexcept {
     }
     const long alone = s.alone * (plane_value_cost(degrees) + 2) + s.alone * (s.alone - 1L);
     const long tried = (newton_steps + 1) * error_slopes_cost(s.columns - s.alone, degrees) + newton_steps * 8L + 2 + alone + 2;   // the last two: improve
-    const long condition = s.columns * plane_slopes_cost(degrees) + s.alone * (s.alone + 1L) / 2 + add_rows_cost(s.columns, n) + solve_triangle_cost(n);
+    const long condition = s.columns * plane_slopes_cost(degrees) + s.alone * (s.alone + 1L) / 2 + add_rows_cost(s.columns, n) + solve_triangle_cost(n) +
+                           (above_noise ? stage_rises_above_cost(e, s) : 0);
     if (s.y == no_parameter) return rows + alone + condition;
 
     const int degree = degree_in_y(s);
@@ -429,25 +504,27 @@ constexpr int elimination_scratch(const Elimination<S>& e) noexcept {
 
 /// Multiply-adds and divisions of eliminate without a list of candidates, at most: a solve that finds a stage singular early costs a few less.
 template <class S>
-constexpr long elimination_cost(const Elimination<S>& e) noexcept {
+constexpr long elimination_cost(const Elimination<S>& e, bool above_noise = false) noexcept {
     long out = e.parameters;
-    for (int s = 0; s < e.stages.size; ++s) out += detail::stage_cost(e, s);
+    for (int s = 0; s < e.stages.size; ++s) out += detail::stage_cost(e, s, above_noise);
     return out;
 }
 
 /// The parameters with the smallest sum of squares ||R u(theta) - z||^2, u the columns as polynomials; stage after stage. triangle: [R|z] packed, of
 /// `columns` columns. solution: e.parameters entries, in their units. Condition: the worst of the stages'. On `regular == false`, which degenerate data
 /// give, and data that fit no real parameters or two sets of them equally well, the solution is of no use. Limits of parameters do not count: the
-/// smallest error wins, wherever it lies. candidates: nullptr, or where those of the stages are listed, up to the first one without an answer.
+/// smallest error wins, wherever it lies. Nor is it regular, though with a finite condition, where the rows of a stage do not rise above `noise` at its
+/// solution. candidates: nullptr, or where those of the stages are listed, up to the first one without an answer.
 /// Cost: elimination_cost. All places for roots are computed, whatever the data: Newton's steps dominate, D d (newton_steps + 1) rows of about
 /// 8 plane_size multiply-adds for a resultant of degree D and a first extremum equation of degree d in x. Never fails, no allocation.
 template <class S>
-inline Solved<S> eliminate(const Elimination<S>& e, const S* triangle, int columns, S* scratch, S* solution, CandidateList<S>* candidates = nullptr) noexcept {
+inline Solved<S> eliminate(const Elimination<S>& e, const S* triangle, int columns, S* scratch, S* solution, NoiseMargin<S> noise = {nullptr, S(0)},
+                          CandidateList<S>* candidates = nullptr) noexcept {
     const Solved<S> singular = {false, std::numeric_limits<S>::infinity()};
     Solved<S> worst = {true, S(0)};
     for (int s = 0; s < e.stages.size; ++s) {
-        const Solved<S> solved = detail::solve_stage(e, s, triangle, columns + 1, scratch, solution, worst.regular ? candidates : nullptr);
-        worst = worst.regular && solved.regular ? Solved<S>{true, larger(worst.condition, solved.condition)} : singular;
+        const Solved<S> solved = detail::solve_stage(e, s, triangle, columns + 1, noise, scratch, solution, worst.regular ? candidates : nullptr);
+        worst = {worst.regular && solved.regular, larger(worst.condition, solved.condition)};
     }
     for (int p = 0; p < e.parameters; ++p) solution[p] *= e.sizes[p];
     return all_finite(solution, e.parameters) ? worst : singular;

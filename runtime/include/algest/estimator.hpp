@@ -12,6 +12,7 @@
 #include "algest/elimination.hpp"
 #include "algest/gram_window.hpp"
 #include "algest/noise.hpp"
+#include "algest/noise_gram.hpp"
 #include "algest/normalised_rows.hpp"
 #include "algest/ratio_filter.hpp"
 #include "algest/rows.hpp"
@@ -51,9 +52,13 @@ struct Blueprint {
     bool rows_published = false;   ///< push evaluates the rows that estimate needs, and publishes them: the windows are moments, which nobody else can read
     int shortest = 0;              ///< samples of the shortest window that is solved, where windows grow; 0: they do not
     View<S> noise_floor = {};      ///< robust: what declared noise alone may make of S(t), packed upper triangle; an estimate is singular where S(t)
-                                   ///< does not rise above it. Empty: not asked
+                                   ///< does not rise above it. Empty: not asked. Normalised rows: of each what noise of deviation 1 in `output` makes
     View<S> sizes = {};            ///< with a deviation limit: absolute values of the unknowns, where they are expected; one that is found
                                    ///< smaller counts as large as this, so that one which is really zero is not refused
+    S margin_over_noise = S(0);    ///< least_squares and elimination, windows of one sample; normalised rows: an estimate is singular unless the rows see
+                                   ///< every combination of its unknowns by this many times the square of what noise puts there; 0: not asked
+    std::uint16_t output = 0;      ///< normalised rows: the window signal that noise enters by
+    S output_noise = S(0);         ///< its declared standard deviation
 
     constexpr int needed() const noexcept { return shortest > 0 ? shortest : rows.samples; }
 };
@@ -69,13 +74,14 @@ constexpr int kept_samples(Solve solve, int instants, bool uncertain, bool pertu
     return (solve == Solve::square || uncertain || perturbation ? spare_samples : 0) + (solve == Solve::robust && uncertain ? instants - 1 : 0);
 }
 constexpr int ring_length(int samples, int kept) noexcept { return samples + kept; }
-constexpr int sum_scalars(Solve solve, int unknowns, int instants) noexcept {
+/// above_noise: with a margin over noise, whose Gram matrix stands behind the triangle.
+constexpr int sum_scalars(Solve solve, int unknowns, int instants, bool above_noise = false) noexcept {
     return solve == Solve::square   ? 1
            : solve == Solve::robust ? gram_scalars(unknowns, instants)
-                                    : triangle_scalars(unknowns);
+                                    : triangle_scalars(unknowns) + (above_noise ? packed_size(unknowns) : 0);
 }
-constexpr int published_scalars(Solve solve, int unknowns) noexcept {
-    return solve == Solve::square ? 1 : published_slots * packed_size(unknowns + 1);
+constexpr int published_scalars(Solve solve, int unknowns, bool above_noise = false) noexcept {
+    return solve == Solve::square ? 1 : published_slots * (packed_size(unknowns + 1) + (above_noise ? packed_size(unknowns) : 0));
 }
 /// The same where push publishes rows: those of the newest instant (square), and of the perturbation.
 constexpr int published_row_scalars(Solve solve, int rows, int unknowns, int perturbation_rows) noexcept {
@@ -84,7 +90,8 @@ constexpr int published_row_scalars(Solve solve, int rows, int unknowns, int per
 }
 /// Scalars of scratch that push needs. rows: of an instant; where push publishes rows, of the perturbation if they are more.
 constexpr int push_scratch(int rows, int unknowns) noexcept { return 2 * row_entries(rows, unknowns); }
-/// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more. rows: of an instant, or of the perturbation if they are more.
+/// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more, with a margin over noise
+/// above_noise_scratch. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     int most = solve_rows_scratch(unknowns);
     if (solve_gram_scratch(unknowns) > most) most = solve_gram_scratch(unknowns);
@@ -92,6 +99,7 @@ constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     if (residual_factor_scratch(rows, unknowns) > most) most = residual_factor_scratch(rows, unknowns);
     return rows * (unknowns + 1) + packed_size(unknowns + 1) + rows * rows + most;
 }
+constexpr int above_noise_scratch(int unknowns) noexcept { return packed_size(unknowns) + unknowns * unknowns; }
 /// Scalars of scratch that uncertainty needs, and estimate with a deviation limit. instants: 0 unless robust.
 constexpr int uncertainty_scratch(int rows, int unknowns, int instants) noexcept {
     return estimate_scratch(rows, unknowns) + node_count(instants) * rows * (2 * unknowns + 1) + unknowns * unknowns + packed_size(unknowns) +
@@ -153,7 +161,8 @@ template <class S>
 constexpr int slot_scalars(const Blueprint<S>& blueprint) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const int perturbation = blueprint.perturbation.rows;
-    return blueprint.rows_published ? published_row_scalars(blueprint.solve, rows.rows, rows.unknowns, perturbation) / published_slots : packed_size(rows.unknowns + 1);
+    if (blueprint.rows_published) return published_row_scalars(blueprint.solve, rows.rows, rows.unknowns, perturbation) / published_slots;
+    return published_scalars(Solve::least_squares, rows.unknowns, blueprint.margin_over_noise > S(0)) / published_slots;
 }
 
 /// Drops what the windows and S(t) hold; the rows that least_squares absorbed so far stay.
@@ -191,7 +200,7 @@ inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noe
         p.absorbed = 1;
     }
     S* const slot = next_slot(blueprint, memory);
-    const int size = packed_size(rows.unknowns + 1);
+    const int size = packed_size(rows.unknowns + 1) + (blueprint.margin_over_noise > S(0) ? packed_size(rows.unknowns) : 0);
     for (int k = 0; k < size; ++k) slot[k] = memory.sums[k];
     return slot + size;
 }
@@ -206,7 +215,8 @@ inline void reset(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     if (blueprint.ratio.used) restart_ratio(memory.ratio);
     if (blueprint.solve == Solve::robust) clear_gram(memory.sums, memory.progress->gram, blueprint.rows.unknowns);
     if (blueprint.solve == Solve::least_squares || blueprint.solve == Solve::elimination) {
-        for (int i = 0; i < triangle_scalars(blueprint.rows.unknowns); ++i) memory.sums[i] = S(0);
+        const int size = sum_scalars(blueprint.solve, blueprint.rows.unknowns, 0, blueprint.margin_over_noise > S(0));
+        for (int i = 0; i < size; ++i) memory.sums[i] = S(0);
     }
 }
 
@@ -229,7 +239,12 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
     p.head = p.head + 1 == length ? 0 : p.head + 1;
     if (p.filled < rows.samples) ++p.filled;
     if (blueprint.solve != Solve::square && p.filled == rows.samples) {
-        evaluate_rows(rows, memory.rings, newest(rows.samples, length, p.head), scratch, scratch + row_entries(rows.rows, rows.unknowns));
+        S* const spare = scratch + row_entries(rows.rows, rows.unknowns);
+        const WindowPosition window_at = newest(rows.samples, length, p.head);
+        evaluate_rows(rows, memory.rings, window_at, scratch, spare);
+        if (blueprint.margin_over_noise > S(0) && all_finite(scratch, row_entries(rows.rows, rows.unknowns))) {
+            add_noise(rows, blueprint.noise, memory.rings, window_at, blueprint.keep, spare, memory.sums + triangle_scalars(rows.unknowns));
+        }
         (void)detail::absorb(blueprint, memory, scratch);
     }
     detail::end_write(p);
@@ -260,12 +275,24 @@ struct EstimateScratch {
     S* sums;     ///< packed [P|Q]'[P|Q], or the triangle
     S* factor;   ///< what whitens
     S* work;     ///< of the solvers
+    S* noise;    ///< with a margin over noise: its packed Gram matrix, then what tests it; else nullptr
 };
+
+/// True where the rows see every unknown by more than the margin over noise; noise: its packed Gram matrix, square: n x n of scratch.
 template <class S>
-inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch) noexcept {
-    S* const sums = scratch + rows.rows * (rows.unknowns + 1);
+inline bool above_noise(const S* triangle, int unknowns, S margin, const S* noise, S* square) noexcept {
+    for (int i = 0; i < unknowns; ++i) {
+        for (int j = i; j < unknowns; ++j) square[i * unknowns + j] = square[j * unknowns + i] = noise[packed_index(unknowns, i, j)];
+    }
+    return triangle_rises_above(triangle, unknowns, margin, square);
+}
+
+template <class S>
+inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch, bool margin) noexcept {
+    S* const matrix = margin ? scratch + above_noise_scratch(rows.unknowns) : scratch;
+    S* const sums = matrix + rows.rows * (rows.unknowns + 1);
     S* const factor = sums + packed_size(rows.unknowns + 1);
-    return {scratch, sums, factor, factor + rows.rows * rows.rows};
+    return {matrix, sums, factor, factor + rows.rows * rows.rows, margin ? scratch : nullptr};
 }
 
 /// True when pushes have spoilt what was read of the windows, or of the rows that push publishes, since `then` was copied.
@@ -286,7 +313,13 @@ inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, const P
     }
     const WindowPosition window_at = newest(rows.samples, ring_length(rows.samples, blueprint.kept), then.head);
     evaluate_rows(rows, memory.rings, window_at, at.matrix, at.work);
-    if (blueprint.normalise) return normalise_rows(at.matrix, rows.rows, rows.unknowns);
+    if (blueprint.normalise) {
+        if (at.noise != nullptr) {
+            noise_of_normalised_rows(at.matrix, rows.rows, rows.unknowns, blueprint.noise_floor.data, window(memory.rings, blueprint.output, window_at), rows.samples,
+                                     blueprint.output_noise, at.noise);
+        }
+        return normalise_rows(at.matrix, rows.rows, rows.unknowns);
+    }
     if (blueprint.whiten_at.size == 0) return true;
     if (!residual_factor(rows, blueprint.noise, memory.rings, window_at, memory.whitened_at, at.work, at.factor)) return false;
     whiten(at.factor, at.matrix, rows.rows, rows.unknowns + 1);
@@ -305,7 +338,7 @@ inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
     const int instants = blueprint.solve == Solve::robust ? blueprint.solve_instants : 0;
     const int span = rows.samples + (instants < 1 ? 0 : instants - 1);
     const int length = ring_length(rows.samples, blueprint.kept);
-    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch);
+    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch, false);
     S* const all_rows = scratch + algest::estimate_scratch(rows.rows, n);
     S* const gain = all_rows + node_count(instants) * entries;
     S* const inverse = gain + node_count(instants) * n * rows.rows;
@@ -396,21 +429,29 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
 
     const int n = rows.unknowns;
     const int size = packed_size(n + 1);
-    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch);
+    const bool margin = blueprint.margin_over_noise > S(0);
+    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch, margin);
+    S* const square_of_noise = margin ? at.noise + packed_size(n) : nullptr;
     Solved<S> solved = {false, none};
     bool beyond_noise = true;
     if (blueprint.solve == Solve::square) {
         const bool usable = newest_rows(blueprint, memory, then, at);
         if (overtaken(blueprint, memory, then)) return {false, Status::filling, none};
         if (usable) solved = solve_rows(at.matrix, rows.rows, n, at.work, lumped);
-        if (blueprint.normalise && solved.regular) solved.condition = condition_before_scaling(at.matrix, n, at.work);
+        if (blueprint.normalise && solved.regular) {
+            solved.condition = condition_before_scaling(at.matrix, n, at.work);
+            if (margin) beyond_noise = normalised_rows_rise_above(at.matrix, n, at.work, blueprint.margin_over_noise, at.noise, at.sums, square_of_noise);
+        }
     } else {
-        for (int k = 0; k < size; ++k) at.sums[k] = memory.published[then.slot * slot_scalars(blueprint) + k];
+        const S* const slot = memory.published + then.slot * slot_scalars(blueprint);
+        for (int k = 0; k < size; ++k) at.sums[k] = slot[k];
+        for (int k = 0; margin && k < packed_size(n); ++k) at.noise[k] = slot[size + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
         if (blueprint.noise_floor.size > 0) beyond_noise = rises_above(at.sums, blueprint.noise_floor.data, n, at.work);
         solved = blueprint.solve == Solve::robust          ? solve_gram(at.sums, n, at.work, lumped)
                  : blueprint.solve == Solve::least_squares ? solve_triangle(at.sums, n, at.work, lumped)
-                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped);
+                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped, NoiseMargin<S>{at.noise, blueprint.margin_over_noise});
+        if (margin && blueprint.solve == Solve::least_squares) beyond_noise = above_noise(at.sums, n, blueprint.margin_over_noise, at.noise, square_of_noise);
     }
     bool good = solved.regular && solved.condition <= blueprint.condition_limit && beyond_noise;
     if (blueprint.ratio.used) {   // what solve_gram leaves in its scratch: L and D, then the scales

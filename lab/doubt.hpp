@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What speaks against a number that least squares gave: that it is hardly told from zero, or on the wrong side of what is known of it.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "generator/model.hpp"
+
+namespace algest::lab {
+
+/// A value within this many of its standard deviations is hardly told from zero: even its sign is no finding. Three, since deviations from residuals
+/// know nothing of what the model lacks, and a real machine's model lacks something.
+constexpr double told_from_zero = 3.0;
+
+/// In words, for people; empty where nothing speaks against the value. deviation: empty where it is not known.
+std::optional<std::string> doubt(const model::Parameter& parameter, double value, std::optional<double> deviation);
+
+}  // namespace algest::lab
