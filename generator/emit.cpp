@@ -209,6 +209,7 @@ void set_steady(const Plan& plan, Data& d) {
     d.set("quantity_count", std::to_string(quantities.size()));
     d.set("block", std::to_string(steady.block));
     d.set("stretch", steady.stretches < 0 ? std::string("Scalar(1)") : "s." + plan.inputs[static_cast<std::size_t>(steady.stretches)].name);
+    d.set("has_stretches", steady.stretches >= 0);
     d.set("stretch_name", steady.stretches < 0 ? std::string() : plan.inputs[static_cast<std::size_t>(steady.stretches)].name);
 }
 

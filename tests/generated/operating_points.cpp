@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE("operating points: the class and replay agree to the last bit
     const auto estimator = std::make_unique<TestType>();
     const auto copy = std::make_unique<TestType>();
     int ok = 0;
-    for (int k = 0; k < 30 * block; ++k) {
+    for (int k = 0; k < 60 * block; ++k) {
         Inputs<TestType> in = motor<TestType>(k);
         if (k % 1000 == 517) in[2] = std::numeric_limits<double>::quiet_NaN();
         if (k == 3333) std::memcpy(static_cast<void*>(copy.get()), estimator.get(), sizeof(TestType));
@@ -108,7 +108,7 @@ TEST_CASE("operating points: two compilers, both scalars, the bits of replay") {
         const plan::Plan narrow = plants::plan_of(text, plan::Scalar::float32);
         CompiledEstimator<float> compiled_narrow(narrow, compiler);
         lab::HostEstimator<float> host_narrow(narrow);
-        for (int k = 0; k < 12 * block; ++k) {
+        for (int k = 0; k < 60 * block; ++k) {
             const Inputs<generated::PmsmSensorlessVoltage> in = motor<generated::PmsmSensorlessVoltage>(k);
             const std::vector<double> found = compiled.step(in.data());
             const Status status = host.step(in.data());
