@@ -9,6 +9,7 @@
 #include "generator/dimension.hpp"
 #include "generator/units.hpp"
 #include "lab/bound_edits.hpp"
+#include "lab/couplings.hpp"
 #include "lab/effect_file.hpp"
 #include "lab/equation_unit.hpp"
 #include "lab/outputs.hpp"
@@ -118,6 +119,11 @@ std::vector<Binding> bindings(const Effect& effect, const model::Model& model, c
             if (effect.rewrite == Rewrite::add_term) out.push_back(std::move(b));
             else if (bind_edits(b, model, measured) && !is_bound_already(b, out)) out.push_back(std::move(b));
         }
+    }
+    if (effect.rewrite == Rewrite::add_term) {
+        std::vector<std::optional<std::string>> unit_of;
+        for (std::size_t e = 0; e < model.equations.size(); ++e) unit_of.push_back(moved(model, model.equations[e]).signal < 0 ? std::nullopt : unit_that_fits(effect, model, e));
+        for (Binding& b : bindings_between_bodies(effect, model, measured, unit_of)) out.push_back(std::move(b));
     }
     return effect.together && out.size() > 1 ? std::vector<Binding>{joined(out)} : out;
 }

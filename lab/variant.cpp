@@ -21,6 +21,7 @@ constexpr std::size_t least_test = 10;
 constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
 constexpr double finest_part = 1e-4;
 constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
+constexpr double share_of_a_candidate = 0.15;
 constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
 constexpr int search_iterations = 12;
@@ -88,6 +89,7 @@ void add(Score& score, std::size_t recording, const std::vector<double>& miss, d
     score.floor.push_back(floor);
     score.blocks.push_back(std::move(blocks));
     score.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
+    score.episodes.push_back(std::min(score.independent.back(), static_cast<double>(miss.size()) / rows_of_an_episode(miss.data(), miss.size())));
     score.nrmse += std::pow(error / std::max(size, 1e-300), 2);
 }
 
@@ -268,6 +270,10 @@ std::vector<BenchRows> Workbench::stretches(const Variant& v, Rows Parts::*part)
     return out;
 }
 
+Workbench::OneOfMany::OneOfMany(Workbench& bench) : effort_(bench.effort_), limit_(bench.effort_.limit) {
+    effort_.limit = std::min(limit_, effort_.spent + share_of_a_candidate * effort_of_a_search);
+}
+
 void Workbench::begin_search() { effort_.limit = effort_.spent + effort_of_a_search; }
 
 void Workbench::refine(Variant& v) {
@@ -397,9 +403,9 @@ std::vector<double> carried_initial(const Variant& v, const Variant& from, std::
 
 namespace {
 
-double gain_of(const Score& a, const Score& b, std::size_t o) {
+double gain_of(const Score& a, const Score& b, std::size_t o, std::vector<double> Score::*counted = &Score::independent) {
     if (!(a.error[o] > 0) || !(b.error[o] > 0)) return 0;
-    return std::min(a.independent[o], b.independent[o]) * 2 * std::log(b.error[o] / a.error[o]);
+    return std::min((a.*counted)[o], (b.*counted)[o]) * 2 * std::log(b.error[o] / a.error[o]);
 }
 
 }  // namespace
@@ -407,6 +413,12 @@ double gain_of(const Score& a, const Score& b, std::size_t o) {
 double log_gain(const Score& a, const Score& b) {
     double out = 0;
     for (std::size_t o = 0; o < a.error.size(); ++o) out += gain_of(a, b, o);
+    return out;
+}
+
+double sure_gain(const Score& a, const Score& b) {
+    double out = 0;
+    for (std::size_t o = 0; o < a.error.size(); ++o) out += gain_of(a, b, o, &Score::episodes);
     return out;
 }
 

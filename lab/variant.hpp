@@ -39,6 +39,7 @@ struct Score {
     std::vector<double> floor;                  ///< the part of it that the sensors' noise makes
     std::vector<std::vector<double>> blocks;    ///< mean square error of each of `score_blocks` blocks
     std::vector<double> independent;            ///< samples that count, autocorrelated ones as less than one
+    std::vector<double> episodes;               ///< the same where an error that rings counts as one while it rings
     std::vector<double> rows;                   ///< samples of each output, or windows of each equation
     double nrmse = 0;                           ///< rms of error / size (free_run), of residual / driving side (rows)
 
@@ -88,6 +89,19 @@ public:
 
     /// Runs and fits of a search share an effort, counted from here; once it is used up what stands is the answer.
     void begin_search();
+
+    /// While it lives no more than a share of the search's effort is spent: one candidate that is stiff must not cost the others their turn.
+    class OneOfMany {
+    public:
+        explicit OneOfMany(Workbench& bench);
+        ~OneOfMany() { effort_.limit = limit_; }
+        OneOfMany(const OneOfMany&) = delete;
+        OneOfMany& operator=(const OneOfMany&) = delete;
+
+    private:
+        Effort& effort_;
+        double limit_;
+    };
     bool used_up() const { return effort_.used_up(); }
 
     /// Free run of a fitted variant over a whole recording; the rows before the training stretch are a run of their own.
@@ -147,7 +161,9 @@ std::vector<double> carried_initial(const Variant& v, const Variant& from, std::
 /// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):
 /// the sum over outputs of rows times log(b^2/a^2).
 double log_gain(const Score& a, const Score& b);
-/// The part of it that one recording makes.
+/// The same with episodes for rows: what is left of it where errors ring.
+double sure_gain(const Score& a, const Score& b);
+/// The part of log_gain that one recording makes.
 double log_gain(const Score& a, const Score& b, std::size_t recording);
 
 /// How sure it is that a is nearer than b: mean over its standard error, block by block, of the logarithm of the ratio of their squared
