@@ -47,6 +47,9 @@ ordered_json recordings_json(const lab::Discovery& d, const DiscoveryFiles& file
     return out;
 }
 
+/// "R = 3.01 +- 0.02 ohm"
+std::string with_deviation(const lab::NamedParameter& p) { return fmt::format("{} = {:.6g} +- {:.2g} {}", p.name, p.value, p.sd, p.unit.empty() ? "(no unit)" : p.unit); }
+
 }  // namespace
 
 ordered_json discovery_json(const lab::Discovery& d, const DiscoveryFiles& files, bool amended) {
@@ -73,9 +76,10 @@ ordered_json discovery_json(const lab::Discovery& d, const DiscoveryFiles& files
 
 std::string discovery_text(const lab::Discovery& d, const std::string& report_file) {
     std::string out = fmt::format("verdict: {}\n", lab::name(d.verdict));
+    const bool one_of_several = d.verdict == lab::Verdict::ambiguous;
     for (const auto& e : d.effects) {
-        out += fmt::format("  {} in {}: {}\n", e.name, e.equation, e.term);
-        for (const auto& p : e.parameters) out += fmt::format("    {} = {:.6g} +- {:.2g} {}\n", p.name, p.value, p.sd, p.unit);
+        out += fmt::format("  {}{} in {}: {}\n", one_of_several ? "one that would do, no more than that: " : "", e.name, e.equation, e.term);
+        for (const auto& p : e.parameters) out += fmt::format("    {}\n", with_deviation(p));
     }
     for (const auto& a : d.alternatives) out += fmt::format("  the data allow: {}\n", fmt::join(a, ", "));
     for (const auto& e : d.experiments) out += fmt::format("  to tell: {}\n", e);
@@ -91,6 +95,12 @@ std::string discovery_text(const lab::Discovery& d, const std::string& report_fi
         if (d.recordings.size() > 1) out += fmt::format("\n{}: gain {:.3g} [1]", r.file, r.gain);
         out += fmt::format("\n{:<12} {:>12} {:>12} {:>12}\n", "signal", "before [1]", "after [1]", "floor [1]");
         for (const auto& o : r.outputs) out += fmt::format("{:<12} {:>12.4g} {:>12.4g} {:>12.4g}\n", o.signal, o.before, o.after, o.floor);
+    }
+    if (!d.parameters_before.empty()) out += "\nparameters, refitted to the model as it was\n";
+    for (const auto& p : d.parameters_before) out += fmt::format("  {}\n", with_deviation(p));
+    if (!d.effects.empty()) {
+        out += fmt::format("parameters of the amended model{}\n", one_of_several ? ", where one of several effects stands" : "");
+        for (const auto& p : d.parameters_after) out += fmt::format("  {}\n", with_deviation(p));
     }
     out += fmt::format("\nreport: {}\n", report_file);
     return out;

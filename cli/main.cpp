@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
@@ -198,7 +199,16 @@ int complain(const std::string& what, const std::string& right, bool json) {
     return fail(diagnostics, json);
 }
 
-int parse_and_run(int argc, char** argv, bool json) {
+/// The words behind `algest`; `help COMMAND`, as other tools have it, is `COMMAND --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.empty() || words.front() != "help") return words;
+    words.erase(words.begin());
+    words.emplace_back("--help");
+    return words;
+}
+
+int parse_and_run(const std::vector<std::string>& words, bool json) {
     CLI::App app{"From a model file to an on-line parameter estimator for a controller.", "algest"};
     app.set_version_flag("--version", "algest " ALGEST_VERSION, "Print the version and exit");
     app.require_subcommand(1);
@@ -224,22 +234,22 @@ int parse_and_run(int argc, char** argv, bool json) {
     const CLI::App* design_command = add_design(app, design_options);
     const CLI::App* simulate_command = add_simulate(app, simulate_options);
     const CLI::App* discover_command = add_discover(app, discover_options);
-    if (argc > 1 && argv[1][0] != '-') {
+    if (!words.empty() && !words.front().starts_with('-')) {
         std::vector<std::string> known;
         for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-        if (std::find(known.begin(), known.end(), argv[1]) == known.end()) {
-            return complain("there is no command " + algest::quoted(argv[1]), algest::did_you_mean(argv[1], known) + "`algest --help` lists what there is", json);
+        if (std::find(known.begin(), known.end(), words.front()) == known.end()) {
+            return complain("there is no command " + algest::quoted(words.front()), algest::did_you_mean(words.front(), known) + "`algest --help` lists what there is", json);
         }
     }
     try {
-        app.parse(argc, argv);
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));   // CLI11 takes the last word first
     } catch (const CLI::Success& help_or_version) {
         return app.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
         const std::string command = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name();
         return complain(error.what(), command.empty() ? "`algest --help` lists what there is" : "`algest " + command + " --help` shows how, with examples", json);
     }
-    replay_options.command = simulate_options.command = std::vector<std::string>(argv + 1, argv + argc);
+    replay_options.command = simulate_options.command = words;
     if (check_command->parsed()) return check(check_options);
     if (keys_command->parsed()) return keys(keys_options);
     if (derive_command->parsed()) return derive(derive_options);
@@ -261,7 +271,7 @@ int main(int argc, char** argv) {
     }
     int code = exit_bad_input;
     try {
-        code = parse_and_run(argc, argv, json);
+        code = parse_and_run(words_of(argc, argv), json);
     } catch (const std::bad_alloc&) {
         complain("out of memory", "a smaller model or recording", json);
     } catch (const std::exception& error) {

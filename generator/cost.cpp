@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/cost.hpp"
 
+#include <algorithm>
+#include <set>
+
 #include "algest/boxcar.hpp"
 #include "algest/delay_line.hpp"
+#include "algest/dot.hpp"
 #include "algest/growing_moments.hpp"
 #include "algest/steady_state.hpp"
 #include "generator/blueprint.hpp"
@@ -77,6 +81,56 @@ long evaluated(const plan::RowData<double>& rows) {
     return out;
 }
 
+/// Of one evaluation of rows on windows: the dot products and the sizes that rounding is measured by.
+long fir_rows(const Plan& plan, const plan::RowData<double>& rows) {
+    const int samples = plan.samples();
+    return evaluated(rows) * (samples + (plan.scalar == plan::Scalar::float32 ? size_products<float>(samples) : size_products<double>(samples)));
+}
+
+/// What carries noise into the rows (noise_in_rows): over all noisy inputs, the products for one sample.
+long noisy_products(const Plan& plan, const plan::RowData<double>& rows) {
+    long out = 0;
+    for (const plan::NoiseChannel& channel : plan.noise) {
+        out += channel.partial >= 0 ? 1 : 0;
+        for (const Functional& f : rows.functionals) out += f.table != no_table && f.signal == channel.signal ? 1 + f.terms : 0;
+    }
+    return out;
+}
+
+/// Inputs whose noise is declared.
+long noisy_inputs(const Plan& plan) {
+    std::set<int> out;
+    for (const plan::NoiseChannel& channel : plan.noise) out.insert(channel.input);
+    return static_cast<long>(out.size());
+}
+
+/// Raw samples that enter the windows of one instant (propagate_noise, residual_factor).
+long entering_samples(const Plan& plan) {
+    int lag = 1;
+    for (const plan::NoiseChannel& channel : plan.noise) lag = std::max(lag, channel.lag);
+    return plan.samples() + lag;
+}
+
+/// Of residual_factor, its sums: the factorisation is rows^3/6.
+long whitening(const Plan& plan, const plan::RowData<double>& rows) {
+    const long r = static_cast<long>(plan.rows.size());
+    const long n = static_cast<long>(plan.lumped.size());
+    return entering_samples(plan) * (noisy_products(plan, rows) + noisy_inputs(plan) * (r * n + r * (r + 1) / 2));
+}
+
+/// Of uncertainty(), which engine moments does not serve, on the windows of up to 32 instants: their rows, then what each noisy sample makes of each instant, and of the sum.
+long uncertainty(const Plan& plan, const plan::RowData<double>& rows, long of_rows) {
+    const long r = static_cast<long>(plan.rows.size());
+    const long n = static_cast<long>(plan.lumped.size());
+    const bool square = plan.solve == Solve::square;
+    const long nodes = square ? 1 : node_count(plan.solve_instants);
+    const long bias = square && r == n ? 0 : r * (3 * n + 1);
+    const long whitened = plan.whiten ? r * (r + 1) / 2 * (n + 1) : 0;
+    const long an_instant = entering_samples(plan) * (noisy_products(plan, rows) + noisy_inputs(plan) * (r * n * (n + 1) + bias + whitened));
+    const long a_sample = n * n + n * (n + 1) / 2 + (bias > 0 ? 2 : 1) * n * n;
+    return nodes * (of_rows + an_instant) + (entering_samples(plan) + std::max(plan.solve_instants - 1, 0)) * noisy_inputs(plan) * a_sample;
+}
+
 /// Of one evaluation of rows on moments: the shift, then polynomial, ends and reference of each functional (evaluate_moment_rows).
 long moment_rows(const Plan& plan, const plan::RowData<double>& rows) {
     long out = 0;
@@ -108,10 +162,14 @@ Cost cost_of(const Plan& plan) {
             out.table_bytes += tables * ((d + 1) * (d + 2) * accumulator_bytes + static_cast<long>(sizeof(unsigned char)));   // and the order of the derivative
         }
     } else {
-        out.rows = evaluated(rows) * plan.samples();
+        out.rows = fir_rows(plan, rows);
         out.push = square ? 0 : out.rows;
-        out.estimate = (square ? out.rows : 0) + evaluated(perturbation) * plan.samples();
+        out.estimate = (square ? out.rows : 0) + fir_rows(plan, perturbation);
         out.table_bytes = tables * plan.samples() * scalar_bytes(plan.scalar);
+    }
+    if (plan.uncertain()) {
+        out.whitening = plan.whiten ? whitening(plan, rows) : 0;
+        out.uncertainty = uncertainty(plan, rows, out.rows + out.whitening);
     }
     return out;
 }

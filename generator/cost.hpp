@@ -14,6 +14,8 @@ struct Cost {
     long rows;             ///< multiply-adds of one evaluation of the rows
     long push;             ///< multiply-adds
     long estimate;         ///< multiply-adds
+    long whitening;        ///< multiply-adds of estimate() beside, where rows are whitened
+    long uncertainty;      ///< multiply-adds, where noise is declared
     long instance_bytes;
     long table_bytes;      ///< constant and shared
     int operations;        ///< of the floating-point unit in one multiply-add of push()

@@ -165,7 +165,6 @@ Data head(const Plan& plan, const std::string& hash) {
 }
 
 void set_cost(const Plan& plan, Data& d) {
-    const auto blueprint = plan::make_blueprint<double>(plan);
     const Cost cost = cost_of(plan);
     const bool square = plan.solve == Solve::square;
     d.set("push_macs", std::to_string(cost.push));
@@ -173,16 +172,9 @@ void set_cost(const Plan& plan, Data& d) {
     const int rows = static_cast<int>(plan.rows.size());
     const int unknowns = static_cast<int>(plan.lumped.size());
     if (plan.uncertain()) {
-        // A noisy signal's sample at the rows of every instant that stands for a block of S(t), as propagate_noise counts.
-        int noisy_terms = 0;
-        for (const plan::NoiseChannel& c : plan.noise) {
-            for (const Functional& f : blueprint.rows.functionals) noisy_terms += f.table != no_table && f.signal == c.signal ? f.terms : 0;
-        }
-        const long samples = static_cast<long>(plan.samples()) * node_count(plan.solve_instants);
-        const long noisy = static_cast<long>(blueprint.noisy.size());
-        d.set("uncertainty_macs", std::to_string(samples * (noisy_terms + noisy * rows * unknowns * (unknowns + 1)) + cost.rows * (square ? 1 : node_count(plan.solve_instants))));
+        d.set("uncertainty_macs", std::to_string(cost.uncertainty));
         d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan.scalar)));
-        d.set("whiten_macs", std::to_string(static_cast<long>(plan.samples()) * (noisy_terms + noisy * rows * (rows + unknowns))));
+        d.set("whiten_macs", std::to_string(cost.whitening));
     }
     d.set("spare", std::to_string(spare_samples));
     d.set("overtaken", std::to_string(square && !plan.moments ? spare_samples : published_slots - 1));

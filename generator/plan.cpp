@@ -24,6 +24,7 @@
 #include "generator/row_choice.hpp"
 #include "generator/row_functional.hpp"
 #include "generator/row_weight.hpp"
+#include "generator/single_precision.hpp"
 #include "generator/steady_state.hpp"
 #include "generator/tape_builder.hpp"
 
@@ -70,6 +71,7 @@ public:
         if (diagnostics_.failed()) return std::nullopt;
         if (!noise_suffices(model_, noise_.through_a_filter, plan_, diagnostics_)) return std::nullopt;
         plan_.noise_floor = noise_floor(plan_);
+        for (const std::string& note : single_precision_notes(model_, lumping_, plan_)) plan_.notes.push_back(note);
         if (!within_limits(model_, plan_, diagnostics_)) return std::nullopt;
         return std::move(plan_);
     }

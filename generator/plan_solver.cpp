@@ -44,12 +44,6 @@ void plan_solver(const model::Model& model, plan::Plan& plan) {
         plan.ratio = {exact::text(*e.omega_n), exact::text(e.zeta), rounded(filter.transition), rounded(filter.before), rounded(filter.now)};
     }
     plan.condition_limit = e.condition_limit ? exact::nearest(*e.condition_limit, plan.scalar) : default_condition_limit(model, plan);
-    if (plan.scalar == plan::Scalar::float32) {
-        for (const plan::Equation& q : plan.equations) {
-            if (q.n < 3) continue;
-            plan.notes.push_back("single precision does not hold equation '" + q.name + "' of order " + std::to_string(q.n) + ": its kernels cancel (a third-order DC motor is off by 5 percent); use double");
-        }
-    }
 }
 
 }  // namespace algest::generator

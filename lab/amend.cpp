@@ -91,6 +91,17 @@ std::size_t behind_last(const std::string& text, const Names& names) {
     return end == std::string::npos ? text.size() : end + 1;
 }
 
+/// Behind the line [table], with or without a comment; npos where there is none.
+std::size_t behind_header(const std::string& text, const std::string& table) {
+    std::size_t end = 0;
+    for (std::size_t at = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+        std::string line = text.substr(at, end - at);
+        line.erase(std::remove_if(line.begin(), line.end(), [](char c) { return c == ' ' || c == '\t' || c == '\r'; }), line.end());
+        if (line.substr(0, line.find('#')) == "[" + table + "]") return end + 1;
+    }
+    return std::string::npos;
+}
+
 /// A file whose lines end with CRLF keeps doing so.
 std::string with_crlf(const std::string& text) {
     std::string out;
@@ -156,10 +167,10 @@ public:
         }
     }
 
-    /// An entry of a table, behind the last one that stands on a line of its own; else a table of its own at the end.
+    /// An entry of a table, behind the last one that stands on a line of its own, or behind the header; else a table of its own at the end.
     template <class Names>
     void declare(const Names& declared, const std::string& table, const std::string& name, const std::vector<std::string>& keys, const std::string& because) {
-        const std::size_t where = behind_last(text_, declared);
+        const std::size_t where = place_of_entries(declared, table);
         if (where != std::string::npos) {
             const bool needs_break = where == text_.size() && !text_.empty() && text_.back() != '\n';
             insert(where, fmt::format("{}{} = {{ {} }}   # {}\n", needs_break ? "\n" : "", name, fmt::join(keys, ", "), because));
@@ -185,7 +196,7 @@ public:
         const std::size_t behind = entry.find_first_of(",} \t", number);
         entry.replace(number, behind - number, value_text(n));
         entry.replace(value, 5, "initial");
-        const std::size_t where = behind_last(text_, model_.parameters);
+        const std::size_t where = place_of_entries(model_.parameters, "parameters");
         splices_.push_back({start, end, ""});
         if (where != std::string::npos) insert(where, entry);
         else own_tables_ += "\n[parameters]\n" + entry;
@@ -213,6 +224,13 @@ public:
     }
 
 private:
+    /// Where another entry of the table can stand; npos where it can only have a table of its own.
+    template <class Names>
+    std::size_t place_of_entries(const Names& declared, const std::string& table) const {
+        const std::size_t where = behind_last(text_, declared);
+        return where != std::string::npos ? where : behind_header(text_, table);
+    }
+
     /// True for b - a in the place of (a-b).
     static bool is_reversed(const Substitution& s, const model::Equation& e, const Stretch& at) {
         if (s.what[0] != '(') return false;

@@ -180,6 +180,13 @@ private:
         if (!seconds_) complaints_.error(at, "the unit " + quoted(*time->unit) + " of `t` is not one of time", "`t [s]`");
     }
 
+    /// What would be right in place of a text that is no number, or of a value that is none.
+    std::string right_number(const std::string& text, double value) const {
+        if (style_.decimal == '.' && style_.separator != ',' && text.find(',') != std::string::npos) return "--decimal-comma, if that is a decimal comma";
+        if (!std::isfinite(value) || text.empty()) return "a number in every row; leave out the rows before or after the gap, so that time stays uniform";
+        return fmt::format("a decimal number such as 1{}5 or -3e-4{}", style_.decimal, text.front() == '+' ? ", without a plus sign in front" : "");
+    }
+
     void read_row() {
         const std::vector<Field>& fields = row_.fields();
         std::vector<Column>& columns = recording_.columns;
@@ -194,10 +201,7 @@ private:
             double value = 0.0;
             const std::string wrong = number_complaint(fields[k].text, style_.decimal, value);
             if (!wrong.empty()) {
-                const bool other_decimal = style_.decimal == '.' && style_.separator != ',' && fields[k].text.find(',') != std::string::npos;
-                complaints_.error(place_of(fields[k].start), wrong + " in column " + quoted(columns[k].name),
-                                  other_decimal ? "--decimal-comma, if that is a decimal comma"
-                                                : fmt::format("a decimal number such as 1{}5 or -3e-4, without a plus sign in front", style_.decimal));
+                complaints_.error(place_of(fields[k].start), wrong + " in column " + quoted(columns[k].name), right_number(fields[k].text, value));
                 if (complaints_.enough()) return;
             }
             columns[k].values.push_back(value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an amendment writes beside a new parameter: a bound by its value, and a start that keeps it.
+// What an amendment writes beside a new parameter: a bound by its value, and a start that keeps it; and where.
 #include "lab/amend.hpp"
 
 #include <catch2/catch.hpp>
@@ -65,4 +65,45 @@ TEST_CASE("a parameter's min goes into the amended model by its value, and its s
     CHECK(with("min = -3", -2.5) == "b = { initial = -2.5, unit = \"N.s/m\", min = -3");
     // Six digits of 1.2345644 are less than it.
     CHECK(with("min = 1.2345644", 1.23456445) == "b = { initial = 1.2345644, unit = \"N.s/m\", min = 1.2345644");
+}
+
+TEST_CASE("new entries go behind the header of an empty table, and a constant that is let go too") {
+    const std::string text = R"toml(name = "m"
+[signals]
+u = { unit = "N", initial = 0 }
+v = { unit = "m/s", initial = 0 }
+[constants]
+m = { value = 2, unit = "kg" }
+[ parameters ]   # none yet
+[[equation]]
+ode = "m*der(v) = u"
+)toml";
+    const std::string let_go = R"toml(name = "wrong"
+summary = "a constant is wrong"
+shows = "what it multiplies"
+reference = "none"
+[roles]
+known = "constant"
+[rewrite]
+kind = "free_constant"
+what = "{known}"
+)toml";
+    for (const auto& [effect, entry] : {std::pair(std::string(effect_text), "# none yet\nb = { initial = 3"), std::pair(let_go, "# none yet\nm = { initial = 3, unit = \"kg\" }\n")}) {
+        Diagnostics said;
+        const auto model = model::read_from_text(text, "m.toml", false, said);
+        test::TemporaryFolder folder;
+        folder.write("effect.toml", effect);
+        const auto effects = lab::read_effects({folder.path("")}, said);
+        for (const auto& d : said.sorted()) UNSCOPED_INFO(d.text());
+        REQUIRE(model);
+        REQUIRE(effects.size() == 1);
+        const auto places = lab::bindings(effects[0], *model, {true, true});
+        REQUIRE(places.size() == 1);
+        lab::Amendment a = lab::amendment(places[0], *model, 0);
+        a.names[0].value = 3;
+        const std::string out = lab::amended(text, *model, a);
+        INFO(out);
+        CHECK(out.find(entry) != std::string::npos);
+        CHECK(model::read_from_text(out, "m.toml", true, said));
+    }
 }

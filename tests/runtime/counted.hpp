@@ -14,6 +14,7 @@ struct Counted {
     Counted() = default;
     template <class N, std::enable_if_t<std::is_arithmetic_v<N> || std::is_enum_v<N>, int> = 0>
     constexpr Counted(N x) : v(static_cast<double>(x)) {}
+    explicit operator int() const { return static_cast<int>(v); }   // a column that a solver keeps among its scalars
     Counted& operator+=(Counted b) { return *this = Counted(v + b.v); }
     Counted& operator-=(Counted b) { return *this = Counted(v - b.v); }
     Counted& operator*=(Counted b) { return *this = *this * b; }

@@ -127,7 +127,7 @@ inline void add_dots(const RowSet<S>& set, int first, const S* samples, RowSums<
 
 /// Evaluates all rows on the windows: matrix[row * (unknowns + 1) + column], the known side in the last column. An entry that is no
 /// larger than its own rounding is zero.
-/// scratch: row_entries. Cost: functionals * (samples + 31) multiply-adds. Never fails; a value that is not finite passes through.
+/// scratch: row_entries. Cost: functionals * (samples + size_products) multiply-adds. Never fails; a value that is not finite passes through.
 template <class S>
 inline void evaluate_rows(const RowSet<S>& set, const S* rings, WindowPosition at, S* matrix, S* scratch) noexcept {
     const RowSums<S> sums = {matrix, scratch};

@@ -51,7 +51,7 @@ constexpr int propagate_scratch(int rows, int unknowns) noexcept { return (rows 
 
 /// covariance (packed upper triangle of unknowns x unknowns) and, unless nullptr, bias (unknowns) of theta. instants: of S(t); 0: the newest
 /// alone. oldest: position of the oldest sample of all windows. Cost: (samples + instants) x noisy signals x nodes whose window holds the
-/// sample (at most 32) x (noise_in_rows + rows unknowns (unknowns+1)). Never fails; what is not finite passes through.
+/// sample (at most 32) x (noise_in_rows + rows unknowns (unknowns+1), with a bias 3 rows unknowns more). Never fails; what is not finite passes through.
 template <class S>
 inline void propagate_noise(const RowSet<S>& set, const Noise<S>& noise, const S* rings, WindowPosition oldest, int instants, const Influence<S>& by,
                             const S* theta, S* scratch, S* covariance, S* bias) noexcept {
