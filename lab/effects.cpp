@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "generator/dimension.hpp"
@@ -80,6 +81,19 @@ Binding joined(const std::vector<Binding>& places) {
     return all;
 }
 
+/// All places at once whose roles have the same units: a voltage and a way have no amplifier in common.
+std::vector<Binding> joined_by_unit(std::vector<Binding> places) {
+    std::vector<Binding> out;
+    while (!places.empty()) {
+        const auto units = places[0].role_units;
+        const auto rest = std::stable_partition(places.begin(), places.end(), [&](const Binding& b) { return b.role_units == units; });
+        std::vector<Binding> alike(std::make_move_iterator(places.begin()), std::make_move_iterator(rest));
+        places.erase(places.begin(), rest);
+        out.push_back(alike.size() > 1 ? joined(alike) : std::move(alike[0]));
+    }
+    return out;
+}
+
 }  // namespace
 
 std::vector<Effect> read_effects(const std::vector<std::string>& folders, Diagnostics& diagnostics) {
@@ -125,7 +139,7 @@ std::vector<Binding> bindings(const Effect& effect, const model::Model& model, c
         for (std::size_t e = 0; e < model.equations.size(); ++e) unit_of.push_back(moved(model, model.equations[e]).signal < 0 ? std::nullopt : unit_that_fits(effect, model, e));
         for (Binding& b : bindings_between_bodies(effect, model, measured, unit_of)) out.push_back(std::move(b));
     }
-    return effect.together && out.size() > 1 ? std::vector<Binding>{joined(out)} : out;
+    return effect.together ? joined_by_unit(std::move(out)) : out;
 }
 
 }  // namespace algest::lab

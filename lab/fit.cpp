@@ -15,8 +15,6 @@ namespace algest::lab {
 
 namespace {
 
-constexpr std::size_t points_of_a_lobe = 4;  ///< of an autocorrelation, that is summed
-constexpr std::size_t most_lags = 200;       ///< 50 lobes: what rings for longer counts as ringing that long
 constexpr double digits_of_a_slope = 1e-3;   ///< slopes are differences of runs
 
 /// An initial value that the optimiser moves: of which run, and which state entry.
@@ -193,27 +191,6 @@ double rows_that_count_as_one(const double* r, std::size_t count) {
         for (std::size_t k = lag; k < count; ++k) product += r[k] * r[k - lag];
         if (product <= 0) break;
         sum += 2 * product / power;
-    }
-    return sum;
-}
-
-double rows_of_an_episode(const double* r, std::size_t count) {
-    double power = 0;
-    for (std::size_t k = 0; k < count; ++k) power += r[k] * r[k];
-    if (!(power > 0)) return 1;
-    const auto correlation = [&](std::size_t lag) {
-        double product = 0;
-        for (std::size_t k = lag; k < count; ++k) product += r[k] * r[k - lag];
-        return product / power;
-    };
-    std::size_t lobe = 1;   // up to the first zero
-    while (lobe < count / 2 && correlation(lobe) > 0) ++lobe;
-    const std::size_t step = std::max<std::size_t>(lobe / points_of_a_lobe, 1);
-    const double by_chance = 4 / static_cast<double>(count);   // white noise stays below it at 19 lags of 20
-    double sum = 1;
-    for (std::size_t lag = step; lag < count / 2 && lag < most_lags * step; lag += step) {
-        const double rho = correlation(lag);
-        if (rho * rho > by_chance) sum += 2 * rho * rho * static_cast<double>(step);
     }
     return sum;
 }

@@ -57,10 +57,6 @@ std::vector<std::vector<double>> prediction(const Bench& bench, const std::vecto
 /// How many rows of a residual count as one: the sum of its autocorrelation up to its first zero, both sides.
 double rows_that_count_as_one(const double* residual, std::size_t rows);
 
-/// How many rows of a residual tell of its size as one independent row does: the sum of its squared autocorrelation, both sides. An error that
-/// rings is one episode as long as it rings, though the first zero of its autocorrelation comes soon.
-double rows_of_an_episode(const double* residual, std::size_t rows);
-
 /// Mean over outputs of the squared error over (size of the measured signal)^2.
 double output_error(const model::Model& model, const Bench& bench, const FitStart& at);
 

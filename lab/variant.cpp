@@ -89,7 +89,6 @@ void add(Score& score, std::size_t recording, const std::vector<double>& miss, d
     score.floor.push_back(floor);
     score.blocks.push_back(std::move(blocks));
     score.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
-    score.episodes.push_back(std::min(score.independent.back(), static_cast<double>(miss.size()) / rows_of_an_episode(miss.data(), miss.size())));
     score.nrmse += std::pow(error / std::max(size, 1e-300), 2);
 }
 
@@ -403,9 +402,9 @@ std::vector<double> carried_initial(const Variant& v, const Variant& from, std::
 
 namespace {
 
-double gain_of(const Score& a, const Score& b, std::size_t o, std::vector<double> Score::*counted = &Score::independent) {
+double gain_of(const Score& a, const Score& b, std::size_t o) {
     if (!(a.error[o] > 0) || !(b.error[o] > 0)) return 0;
-    return std::min((a.*counted)[o], (b.*counted)[o]) * 2 * std::log(b.error[o] / a.error[o]);
+    return std::min(a.independent[o], b.independent[o]) * 2 * std::log(b.error[o] / a.error[o]);
 }
 
 }  // namespace
@@ -413,12 +412,6 @@ double gain_of(const Score& a, const Score& b, std::size_t o, std::vector<double
 double log_gain(const Score& a, const Score& b) {
     double out = 0;
     for (std::size_t o = 0; o < a.error.size(); ++o) out += gain_of(a, b, o);
-    return out;
-}
-
-double sure_gain(const Score& a, const Score& b) {
-    double out = 0;
-    for (std::size_t o = 0; o < a.error.size(); ++o) out += gain_of(a, b, o, &Score::episodes);
     return out;
 }
 

@@ -39,7 +39,6 @@ struct Score {
     std::vector<double> floor;                  ///< the part of it that the sensors' noise makes
     std::vector<std::vector<double>> blocks;    ///< mean square error of each of `score_blocks` blocks
     std::vector<double> independent;            ///< samples that count, autocorrelated ones as less than one
-    std::vector<double> episodes;               ///< the same where an error that rings counts as one while it rings
     std::vector<double> rows;                   ///< samples of each output, or windows of each equation
     double nrmse = 0;                           ///< rms of error / size (free_run), of residual / driving side (rows)
 
@@ -161,9 +160,7 @@ std::vector<double> carried_initial(const Variant& v, const Variant& from, std::
 /// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):
 /// the sum over outputs of rows times log(b^2/a^2).
 double log_gain(const Score& a, const Score& b);
-/// The same with episodes for rows: what is left of it where errors ring.
-double sure_gain(const Score& a, const Score& b);
-/// The part of log_gain that one recording makes.
+/// The part of it that one recording makes.
 double log_gain(const Score& a, const Score& b, std::size_t recording);
 
 /// How sure it is that a is nearer than b: mean over its standard error, block by block, of the logarithm of the ratio of their squared

@@ -115,6 +115,29 @@ ode = "J*der(w) = tau - b*w"
     CHECK(has(texts[0], "ode = \"tau2*der(lagged) = tau - lagged\"\n"));
 }
 
+TEST_CASE("inputs of one unit have one amplifier, those of another unit have another") {
+    const auto texts = amended_by("actuator_lag", R"toml(name = "m"
+[signals]
+r = { unit = "m" }
+F1 = { unit = "N" }
+F2 = { unit = "N" }
+x = { unit = "m", initial = 0 }
+y = { unit = "m", initial = 0 }
+[parameters]
+m = { initial = 2, unit = "kg" }
+k = { initial = 300, unit = "N/m" }
+[[equation]]
+ode = "m*der(x,2) = F1 - k*(x - r)"
+[[equation]]
+ode = "m*der(y,2) = F2 - k*y"
+)toml");
+    REQUIRE(texts.size() == 2);
+    CHECK(has(texts[1], "ode = \"m*der(x,2) = lagged - k*(x - r)\"\n"));
+    CHECK(has(texts[1], "ode = \"m*der(y,2) = lagged2 - k*y\"\n"));
+    CHECK(has(texts[0], "ode = \"m*der(x,2) = F1 - k*(x - lagged)\"\n"));
+    CHECK(has(texts[0], "ode = \"m*der(y,2) = F2 - k*y\"\n"));
+}
+
 TEST_CASE("what acts between two bodies comes into the balances of both, against each other") {
     const std::string car = R"toml(name = "m"
 [signals]
