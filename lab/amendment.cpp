@@ -5,6 +5,7 @@
 
 #include "generator/names.hpp"
 #include "generator/tidy_unit.hpp"
+#include "generator/units.hpp"
 #include "lab/amend.hpp"
 #include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
@@ -91,6 +92,12 @@ NewName let_go(const std::string& constant, const model::Model& model) {
     return out;
 }
 
+/// What is added to a temperature in degC is a difference, which has no unit that UDUNITS tells from a temperature in K: it goes unchecked.
+std::string unit_of_difference(const std::string& unit) {
+    const auto parsed = units::Unit::parse(unit);
+    return parsed && parsed->known() && !parsed->same_origin(parsed->times(units::Unit::dimensionless())) ? "" : unit;
+}
+
 void join(std::string& text, const std::string& part) { text += (text.empty() ? "" : ", ") + part; }
 
 }  // namespace
@@ -120,7 +127,7 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
     for (const EffectParameter& p : effect.parameters) {
         const std::string name = names.fresh(p.name);
         texts.rename_everywhere(p.name, name);
-        NewName added{name, units::tidy(filled_unit(p.unit, role_units)), 0.0, binding.in_output ? std::nullopt : p.min, false};
+        NewName added{name, unit_of_difference(units::tidy(filled_unit(p.unit, role_units))), 0.0, binding.in_output ? std::nullopt : p.min, false};
         added.neutral = filled(p.neutral, binding.roles[0]);
         out.names.push_back(std::move(added));
     }
@@ -132,7 +139,14 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
         out.names.push_back(std::move(added));
     }
     if (!binding.freed.empty()) out.names.push_back(let_go(binding.freed, model));
+    // The model's own names come in last: one of them may be spelled as a name that the effect brings.
     for (std::size_t k = 0; k < out.terms.size(); ++k) out.terms[k] = filled(out.terms[k], binding.roles[k]);
+    for (Substitution& s : out.substitutions) {
+        s.by = filled(s.by, s.roles);
+        s.derivative = filled(s.derivative, s.roles);
+        s.roles.clear();
+    }
+    for (std::size_t k = 0; k < out.states.size(); ++k) out.states[k].ode = filled(out.states[k].ode, binding.states[k].roles);
     return out;
 }
 

@@ -110,7 +110,7 @@ bool bind_edits(Binding& b, const model::Model& model, const std::vector<bool>& 
                 found = true;
                 continue;
             }
-            Substitution s{k, b.roles[0].at(edit.what), filled(edit.by, b.roles[0]), filled(edit.derivative, b.roles[0]), edit.part};
+            Substitution s{k, b.roles[0].at(edit.what), edit.by, edit.derivative, edit.part, 0, b.roles[0]};
             const Places places = places_of(s, model);
             if (places.plain.empty() && places.derivatives.empty()) continue;
             found = true;
@@ -124,15 +124,14 @@ bool bind_edits(Binding& b, const model::Model& model, const std::vector<bool>& 
     for (const EffectState& state : effect.states) {
         EffectState bound = state;
         bound.unit = filled_unit(state.unit, b.role_units);
-        bound.ode = filled(state.ode, b.roles[0]);
-        b.states.push_back({std::move(bound)});
+        b.states.push_back({std::move(bound), 0, b.roles[0]});
     }
     return true;
 }
 
 bool is_bound_already(const Binding& b, const std::vector<Binding>& others) {
     const auto same = [&](const Binding& o) {
-        const auto alike = [](const Substitution& x, const Substitution& y) { return x.equation == y.equation && x.what == y.what && x.by == y.by; };
+        const auto alike = [](const Substitution& x, const Substitution& y) { return x.equation == y.equation && x.what == y.what && x.by == y.by && x.roles == y.roles; };
         return o.freed == b.freed && o.equations == b.equations && o.terms == b.terms && o.roles[0] == b.roles[0] &&
                std::equal(o.substitutions.begin(), o.substitutions.end(), b.substitutions.begin(), b.substitutions.end(), alike);
     };

@@ -52,8 +52,8 @@ struct Evidence {
     std::string equation;
     std::string term;
     double strength;      ///< F statistic of the weak residual's reduction
-    double validation;    ///< nrmse on the validation rows once fitted in free run; NaN: not fitted
-    double improvement;   ///< of the information criterion over the model without it, deflated for autocorrelation; NaN: not fitted
+    double validation;    ///< nrmse on the validation rows once fitted in free run
+    double improvement;   ///< of the information criterion over the model without it, deflated for autocorrelation
     bool chosen;
     bool rival;           ///< the data do not tell it from what was chosen
     int step;             ///< 1: beside the nominal model; 2: beside the first effect; ...

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "generator/dimension.hpp"
 #include "generator/units.hpp"
 #include "lab/bound_edits.hpp"
+#include "lab/couplings.hpp"
 #include "lab/effect_file.hpp"
 #include "lab/equation_unit.hpp"
 #include "lab/outputs.hpp"
@@ -79,6 +81,19 @@ Binding joined(const std::vector<Binding>& places) {
     return all;
 }
 
+/// All places at once whose roles have the same units: a voltage and a way have no amplifier in common.
+std::vector<Binding> joined_by_unit(std::vector<Binding> places) {
+    std::vector<Binding> out;
+    while (!places.empty()) {
+        const auto units = places[0].role_units;
+        const auto rest = std::stable_partition(places.begin(), places.end(), [&](const Binding& b) { return b.role_units == units; });
+        std::vector<Binding> alike(std::make_move_iterator(places.begin()), std::make_move_iterator(rest));
+        places.erase(places.begin(), rest);
+        out.push_back(alike.size() > 1 ? joined(alike) : std::move(alike[0]));
+    }
+    return out;
+}
+
 }  // namespace
 
 std::vector<Effect> read_effects(const std::vector<std::string>& folders, Diagnostics& diagnostics) {
@@ -119,7 +134,12 @@ std::vector<Binding> bindings(const Effect& effect, const model::Model& model, c
             else if (bind_edits(b, model, measured) && !is_bound_already(b, out)) out.push_back(std::move(b));
         }
     }
-    return effect.together && out.size() > 1 ? std::vector<Binding>{joined(out)} : out;
+    if (effect.rewrite == Rewrite::add_term) {
+        std::vector<std::optional<std::string>> unit_of;
+        for (std::size_t e = 0; e < model.equations.size(); ++e) unit_of.push_back(moved(model, model.equations[e]).signal < 0 ? std::nullopt : unit_that_fits(effect, model, e));
+        for (Binding& b : bindings_between_bodies(effect, model, measured, unit_of)) out.push_back(std::move(b));
+    }
+    return effect.together ? joined_by_unit(std::move(out)) : out;
 }
 
 }  // namespace algest::lab

@@ -23,12 +23,14 @@ struct Substitution {
     std::string derivative;   ///< of a signal: what takes the place of its der(), {derivative} standing for it; empty: it stays
     Part part = Part::everywhere;
     std::size_t state_set = 0;   ///< whose states stand in `by`
+    std::map<std::string, std::string> roles = {};   ///< placeholders that stand in `by` and `derivative`; an amendment has filled them
 };
 
 /// A hidden state of one of several places that an effect enters at once.
 struct BoundState {
     EffectState state;
     std::size_t state_set = 0;
+    std::map<std::string, std::string> roles = {};   ///< placeholders that stand in its equation
 };
 
 /// One way in which an effect may enter a model.

@@ -43,7 +43,11 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     if (nominal.score.gap() <= at_the_floor) return Verdict::none;
     const bool spoken_for = std::any_of(selection.evidence.begin(), selection.evidence.end(), [](const Evidence& e) { return e.strength > no_noise; });
     const bool noise_alone = nominal.score.gap() <= too_far_for_noise || white(nominal.score);
-    const auto nothing = [&] { return spoken_for || selection.cut_short || !noise_alone || structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
+    // Where no equation has rows nobody can look for a shape in them: then only an error that is white has none.
+    bool has_rows = false;
+    for (std::size_t e = 0; e < nominal.model.equations.size(); ++e) has_rows = has_rows || has_weak_form(nominal.model, nominal.bench, e);
+    const bool shape_is_hidden = !has_rows && !white(nominal.score);
+    const auto nothing = [&] { return spoken_for || selection.cut_short || !noise_alone || shape_is_hidden || structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
     if (best.amendments.empty()) return nothing();
     const double left = best.score.nrmse / nominal.score.nrmse;
     if (std::isnan(left) || std::isnan(best.score.gap())) return Verdict::unknown;   // an error that is no number explains nothing

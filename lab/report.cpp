@@ -223,8 +223,7 @@ DataList evidence_data(const Discovery& d) {
         set_text(data, "improvement", three_digits(e.improvement));
         data.set("chosen", e.chosen);
         data.set("rival", e.rival && !e.chosen);
-        data.set("rejected", !e.rival && !e.chosen && std::isfinite(e.validation));
-        data.set("not_fitted", !e.rival && !e.chosen && !std::isfinite(e.validation));
+        data.set("rejected", !e.rival && !e.chosen);
         list.push_back(data);
     }
     return list;

@@ -87,8 +87,9 @@ public:
     }
 
 private:
-    /// Equations that amendments have brought stand behind those of the nominal model.
+    /// Equations that amendments have brought stand behind those of the nominal model; a scanned constant is in no doubt of its own.
     bool enters_what_was_added(const Binding& binding) const {
+        for (const Amendment& a : base_.amendments) for (const NewName& n : a.names) if (n.name == binding.freed && !n.let_go) return true;
         std::size_t added = 0;
         for (const Amendment& a : base_.amendments) added += a.states.size();
         return std::any_of(binding.equations.begin(), binding.equations.end(), [&](std::size_t e) { return e + added >= base_.whole.equations.size(); });
@@ -284,6 +285,7 @@ public:
 
     /// Sets the candidate's share and, where the weak form has none, its start and the value of its scan.
     void weigh(Candidate& c) const {
+        const Workbench::OneOfMany share(bench_);
         if (c.scans.empty()) return weigh_at(c);
         Candidate best = c;
         for (const double scan : c.scans) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "lab/further_order.hpp"
 #include "lab/golden_section.hpp"
 #include "lab/noise.hpp"
 #include "lab/precedence.hpp"
@@ -29,7 +30,10 @@ constexpr double needed_gain = 0.95;            ///< an effect must bring the va
 constexpr double needed_gain_of_further = 0.8;  ///< the same of a further effect where noise is guessed: nothing says what noise would leave
 constexpr double needed_significance = 2.5;     ///< standard errors of the difference over blocks (16: a t of 2.5 is 1 in 40)
 constexpr double rows_of_no_chance = 50;        ///< F statistic that noise of the process does not reach
+constexpr double rows_of_chance = 8;            ///< F statistic that noise reaches in one search of ten: of two parameters, 119 orders, 10 places
+constexpr double gain_against_rows = 40;        ///< that it takes where rows see an effect, and find it no more than chance
 constexpr double gain_by_chance = 10;           ///< that the best of 50 candidates has, one search in three: 2 ln(50 * 3)
+constexpr int most_orders = 4;                  ///< of one effect, beside the first
 constexpr double alike = 1.05;                  ///< validation errors within this ratio are not told apart,
 constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
 constexpr double clearly_worse = 1.3;           ///< ... unless they are beyond this ratio
@@ -64,6 +68,7 @@ std::vector<double> carried_over(const Variant& v, const Variant& from) {
 }
 
 std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, const Candidate& c) {
+    const Workbench::OneOfMany share(bench);
     Amendment a = amendment(c.binding, base.model, c.scan);
     const auto probe = bench.runnable(amended(base.text, base.whole, a));
     if (!probe) return std::nullopt;
@@ -172,6 +177,23 @@ std::vector<std::size_t> tell_rivals(Selection& out, const Precedence& precedenc
     return rows;
 }
 
+/// Further orders of what was chosen, the strongest first: each has to stand out in the rows and to leave the validation error no larger.
+void add_further_orders(Workbench& bench, Selection& out, const std::vector<Effect>& effects) {
+    const std::vector<Amendment> chosen = out.best.amendments;
+    for (const Amendment& a : chosen) {
+        const auto effect = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == a.effect; });
+        for (int k = 0; k < most_orders && !bench.used_up(); ++k) {
+            const auto candidate = further_order(bench, out.best, a, *effect);
+            if (!candidate) break;
+            auto v = with_candidate(bench, out.best, *candidate);
+            if (!v || !(v->score.nrmse < out.best.score.nrmse)) break;
+            out.evidence.push_back(evidence_of(*v, out.best, candidate->strength, static_cast<int>(v->amendments.size())));
+            out.evidence.back().chosen = true;
+            out.best = std::move(*v);
+        }
+    }
+}
+
 /// Sets with as many effects as this one at the most.
 std::vector<Tried> no_larger(const std::vector<Tried>& all, const Variant& than) {
     std::vector<Tried> out;
@@ -243,7 +265,8 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         // laws bend into the shape of a third.
         const bool to_the_floor = ahead || (!out.best.amendments.empty() && bench.yardstick() == Yardstick::free_run && !guessed);
         // A run that drifts on noise of the process is one sample, however long: some effect lies on its way.
-        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && named.strength < rows_of_no_chance && log_gain(top.score, out.best.score) < gain_by_chance;
+        const double needed = named.strength > 0 && named.strength < rows_of_chance ? gain_against_rows : gain_by_chance;
+        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && named.strength < rows_of_no_chance && log_gain(top.score, out.best.score) < needed;
         if (by_chance || !worth_it(top.score, out.best.score, gain) || (to_the_floor && top.score.gap() > far_from_the_floor)) {
             if (ahead) break;
             ahead = true;
@@ -269,6 +292,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
     chosen.erase(std::remove_if(chosen.begin(), chosen.end(), [&](std::size_t r) { return !kept(r); }), chosen.end());
     // What is left without the effects that are not missed was compared with others of its size while they were beside it.
     if (out.best.amendments.size() < before) rivals = tell_rivals(out, precedence, {&out.best, out.evidence[chosen.back()].strength}, no_larger(all, out.best));
+    if (out.best.score.gap() > at_the_floor) add_further_orders(bench, out, effects);
     for (const std::size_t r : chosen) out.evidence[r].chosen = true;
     for (const std::size_t r : rivals) out.evidence[r].rival = true;
     return out;

@@ -21,6 +21,7 @@ constexpr std::size_t least_test = 10;
 constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
 constexpr double finest_part = 1e-4;
 constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
+constexpr double share_of_a_candidate = 0.15;
 constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
 constexpr int search_iterations = 12;
@@ -266,6 +267,10 @@ std::vector<BenchRows> Workbench::stretches(const Variant& v, Rows Parts::*part)
     std::vector<BenchRows> out;
     for (std::size_t r = 0; r < recordings(); ++r) out.push_back({&bench_of(v, r), parts(r).*part});
     return out;
+}
+
+Workbench::OneOfMany::OneOfMany(Workbench& bench) : effort_(bench.effort_), limit_(bench.effort_.limit) {
+    effort_.limit = std::min(limit_, effort_.spent + share_of_a_candidate * effort_of_a_search);
 }
 
 void Workbench::begin_search() { effort_.limit = effort_.spent + effort_of_a_search; }

@@ -88,6 +88,19 @@ public:
 
     /// Runs and fits of a search share an effort, counted from here; once it is used up what stands is the answer.
     void begin_search();
+
+    /// While it lives no more than a share of the search's effort is spent: one candidate that is stiff must not cost the others their turn.
+    class OneOfMany {
+    public:
+        explicit OneOfMany(Workbench& bench);
+        ~OneOfMany() { effort_.limit = limit_; }
+        OneOfMany(const OneOfMany&) = delete;
+        OneOfMany& operator=(const OneOfMany&) = delete;
+
+    private:
+        Effort& effort_;
+        double limit_;
+    };
     bool used_up() const { return effort_.used_up(); }
 
     /// Free run of a fitted variant over a whole recording; the rows before the training stretch are a run of their own.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every command in README and docs runs, every model and every piece of C++ in them is right."""
+import json
 import os
 import re
 import shutil
@@ -24,6 +25,7 @@ def blocks(page, language):
 # The pictures of docs/, and which command of the pages draws each (tests/docs/test_pictures.py looks at them).
 PICTURES = {"positioning_axis.svg": "demo/positioning_axis.svg", "gap.svg": "demo/gap.svg", "pmsm_drive.svg": "pmsm_drive/figure_4_velocity.svg",
             "magnetic_bearing.svg": "magnetic_bearing/figure_10_tracking_z.svg", "drive_train.svg": "drive_train/figure_7_closed_loop.svg",
+            **{f"verdict_{v}.svg": f"verdicts/verdict_{v}.svg" for v in ("named", "ambiguous", "none", "unknown")},
             "tutorial_estimates.svg": "tutorial/tutorial_estimates.svg", "tutorial_speed.svg": "tutorial/tutorial_speed.svg"}
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 ROUNDING = 1.0   # px: another compiler's or library's last bits may move a point that far, no further
@@ -139,6 +141,17 @@ class Documentation(unittest.TestCase):
     def test_the_tutorial_shows_its_model(self):
         model = (SOURCE / "examples" / "demo" / "motor.toml").read_text(encoding="utf-8")
         self.assertEqual(blocks(SOURCE / "docs" / "tutorial.md", "toml"), ["".join(line for line in model.splitlines(keepends=True) if not line.startswith("#"))])
+
+    def test_the_effect_that_the_page_of_unknown_teaches(self):
+        """Torque 2 T w/w0/(1 + (w/w0)^2) with T = 0.03 N.m, w0 = 60 rad/s in examples/verdicts/bench.cpp."""
+        done = self.run_line(f"{CXX} -std=c++17 -O2 examples/verdicts/bench.cpp -o build/bench && build/bench unknown build/unknown.csv && mkdir -p mine/effects && cp examples/demo/motor.toml mine")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        (Path(self.root) / "mine/effects/eddy_brake.toml").write_text(blocks(SOURCE / "docs" / "verdict-unknown.md", "toml-effect")[0], encoding="utf-8")
+        done = self.run_line("algest discover mine/motor.toml build/unknown.csv -o build/found --json 2>/dev/null")
+        found = json.loads(done.stdout)
+        self.assertEqual((found["verdict"], [e["name"] for e in found["effects"]]), ("named", ["eddy_brake"]))
+        for parameter, truth in zip(found["effects"][0]["parameters"], (0.06, 60)):
+            self.assertLess(abs(parameter["value"] / truth - 1), 0.01)   # three standard deviations are 1 and 0.75 percent
 
     def test_links_lead_somewhere(self):
         for page in PAGES:

@@ -7,7 +7,8 @@ from pathlib import Path
 from environment import BUILD, SOURCE
 from figures import faults, page_of, screenshot
 
-PANELS = {"positioning_axis.svg": 4, "gap.svg": 1, "pmsm_drive.svg": 2, "magnetic_bearing.svg": 3, "drive_train.svg": 2, "tutorial_estimates.svg": 4, "tutorial_speed.svg": 2}
+PANELS = {"positioning_axis.svg": 4, "gap.svg": 1, "pmsm_drive.svg": 2, "magnetic_bearing.svg": 3, "drive_train.svg": 2, "tutorial_estimates.svg": 4, "tutorial_speed.svg": 2,
+          "verdict_named.svg": 1, "verdict_ambiguous.svg": 1, "verdict_none.svg": 1, "verdict_unknown.svg": 1}
 # Texts that are neither a number nor the label of an axis.
 PLAIN = {"Linear axis, simulated", "estimate", "published", "truth", "first model, refitted", "with what was named", "two standard deviations of the noise", "measured", "reference", "shaft",
          "estimator is fed", "controller is retuned", "wanted", "motor", "retuned", "PI alone", "with notches"}

@@ -160,6 +160,9 @@ class RealRecordings(unittest.TestCase):
         (output,) = found["outputs"]
         self.assertLess(output["nrmse_after"], output["nrmse_before"])
         self.assertTrue(any("Ncog" in d for d in found["doubts"]), found["doubts"])
+        orders = [p["value"] for e in found["effects"] for p in e["parameters"] if p["name"].startswith("Ncog")]
+        self.assertGreaterEqual(len(orders), 2)
+        self.assertLessEqual(set(orders), {7, 28, 14, 36, 12, 84})   # those that the whole turn shows (recordings/README.md)
 
     def named_first(self, title, model, recording, effect):
         """One recording of a machine whose model lacks one thing; no noise is declared, so what else is missing is a doubt."""
@@ -182,17 +185,20 @@ class RealRecordings(unittest.TestCase):
         self.assertLess(output["nrmse_after"], 0.4)                               # R^2 above 0.84
         self.assertGreater(output["nrmse_before"], 1)                             # worse than no model
 
-    def test_dry_friction_of_a_damper(self):
-        """Its model gives the force that a sensor shows; nothing moves. Least squares on the whole file: R^2 0.89 viscous, 0.98 with dry friction."""
-        found, output = self.named_first("damper, viscous only", "mr_damper.toml", "mr_damper.csv", "coulomb_friction")
+    def test_hysteresis_of_a_damper(self):
+        """Its model gives the force that a sensor shows; nothing moves but what the damper remembers. Least squares on the whole file: R^2 0.89 viscous, 0.98 with dry friction."""
+        found, output = self.named_first("damper, viscous only", "mr_damper.toml", "mr_damper.csv", "hysteresis")
         source = RECORDINGS / "mr_damper.csv"
         v, force = column(source, "velocity_diff"), column(source, "force")
         size = rms([f - sum(force) / len(force) for f in force])
         (_, dry, _), left = least_squares([v, [sign(x) for x in v], [1.0] * len(v)], force)
         print(f"   least squares: dry friction {dry:.1f} N, R^2 {1 - (left / size) ** 2:.4f}; discover on the test stretch: {1 - output['nrmse_after'] ** 2:.4f}, before {1 - output['nrmse_before'] ** 2:.4f}")
-        self.assertLess(abs(values(found)["Tc"] / dry - 1), 0.1)
+        # Beside a loop of the width that was found, run here by its closed form, least squares on the training stretch finds the same force.
+        end = 7 * len(v) // 10
+        (_, force_of_the_loop, _), _ = least_squares([v[:end], loop(v, 0.01, values(found)["width"])[:end], [1.0] * end], force[:end])
+        self.assertLess(abs(values(found)["Fh"] / force_of_the_loop - 1), 0.05)   # discover's model has no constant, and runs between the samples
         self.assertAlmostEqual(1 - output["nrmse_before"] ** 2, 0.89, delta=0.02)
-        self.assertGreater(1 - output["nrmse_after"] ** 2, 0.96)                  # of the test stretch; hysteresis is left
+        self.assertGreater(1 - output["nrmse_after"] ** 2, 0.97)                  # of the test stretch: the issue's bar, which dry friction alone misses (0.952)
 
     def test_resistance_and_offset_of_a_coil(self):
         """Its documents say 2.2 ohm. The current never reverses: an offset and a drop against the current are the same voltage, and only the first
@@ -216,6 +222,20 @@ class RealRecordings(unittest.TestCase):
             self.assertLess(abs(abs(values(found)["Vdt" if "Vdt" in values(found) else "V0"]) / drop - 1), 0.25)
             (output,) = found["outputs"]
             self.assertLess(output["nrmse_after"], output["nrmse_before"] / 5)
+
+
+def loop(v, period, width):
+    """Bouc and Wen, exponent 1, equal shapes: towards 1 as 1 - exp(-s/width) over a way s, and straight on the way back to zero."""
+    z, out = 0.0, []
+    for before, after in zip([v[0], *v], v):
+        way = 0.5 * (before + after) * period / width
+        side = 1.0 if way >= 0 else -1.0
+        way, here = abs(way), side * z
+        if here < 0:
+            here, way = min(here + way, 0.0), max(way + here, 0.0)
+        z = side * (1 - (1 - here) * math.exp(-way))
+        out.append(z)
+    return out
 
 
 def lag(x, period, tau):

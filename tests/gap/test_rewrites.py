@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Effects that are more than a term: each kind of rewrite, taught by the file that docs/discover.md shows and found in a recording made here
 by a simulator of its own. A file with the name of one of the library's takes its place, so that it is the file beside the model that acts."""
+import math
 import random
 import re
 import tempfile
@@ -132,6 +133,77 @@ ode = "F = c*v"
         found, _ = self.discover(text, "\n".join(rows) + "\n")
         self.assertEqual((found["verdict"], names(found)), ("named", ["coulomb_friction"]))
         self.assertLess(abs(values(found)["Tc"] / 2 - 1), 0.02)   # 2000 samples of 0.05 N noise: far below
+
+    def sprung(self, force, seed):
+        """A mass of 1 kg on a spring with an element that is not in its model: force(x, v, z) and the rate of what it remembers, z."""
+        dice = random.Random(seed)
+        pull, rate = force
+        recording = run(lambda s, F: [s[1], F - 3.0 * s[1] - 300.0 * s[0] - pull(s[1], s[2]), rate(s[1], s[2])], [0.0, 0.0, 0.0], lambda k: dice.uniform(-12, 12) if k % 150 == 0 else None,
+                        lambda s: (s[0] + dice.gauss(0, 2e-5),), "t [s],F [N],x [m]", 6000)
+        model = """name = "sprung"
+[sampling]
+period = 1e-3
+[signals]
+F = { unit = "N", hold = "zoh" }
+x = { unit = "m", noise = 2e-5, initial = 0 }
+[constants]
+m = { value = 1, unit = "kg" }
+[parameters]
+k = { unit = "N/m", initial = 250, min = 0 }
+c = { unit = "N.s/m", initial = 2, min = 0 }
+[[equation]]
+name = "force balance"
+ode = "m*der(x,2) = F - k*x - c*der(x)"
+"""
+        found, _ = self.discover(model, recording)
+        return found
+
+    def test_a_force_that_remembers(self):
+        """Bouc and Wen: 2 N, 4 mm wide, on strokes of 30 mm."""
+        loop = (lambda v, z: 2.0 * z, lambda v, z: (v - 0.5 * abs(v) * z - 0.5 * v * abs(z)) / 4e-3)
+        found = self.sprung(loop, 11)
+        self.assertEqual((found["verdict"], names(found)), ("named", ["hysteresis"]))
+        self.assertLess(abs(values(found)["Fh"] / 2.0 - 1), 0.05)   # the bar of the open cases for strengths
+        self.assertLess(abs(values(found)["width"] / 4e-3 - 1), 0.05)
+        self.at_the_floor(found)
+
+    def test_none_that_remembers_where_nothing_is_hidden(self):
+        found = self.sprung((lambda v, z: 0.0, lambda v, z: 0.0), 13)
+        self.assertEqual((found["verdict"], names(found)), ("none", []))
+
+    def test_friction_of_a_strut_between_two_bodies(self):
+        dice = random.Random(17)
+        strut = lambda v: 25.0 * math.tanh(v / 1e-3) + 700.0 * v
+        recording = run(lambda s, r: [s[1], (-12000.0 * (s[0] - s[2]) - strut(s[1] - s[3])) / 220.0, s[3], (12000.0 * (s[0] - s[2]) + strut(s[1] - s[3]) - 120000.0 * (s[2] - r)) / 28.0],
+                        [0.0] * 4, lambda k: dice.uniform(-0.02, 0.02) if k % 100 == 0 else None, lambda s: (s[0] + dice.gauss(0, 5e-5), s[2] + dice.gauss(0, 5e-5)),
+                        "t [s],r [m],xs [m],xu [m]", 5000, period=2e-3)
+        model = """name = "car"
+[sampling]
+period = 2e-3
+[signals]
+r = { unit = "m", hold = "zoh" }
+xs = { unit = "m", noise = 5e-5, initial = 0 }
+xu = { unit = "m", noise = 5e-5, initial = 0 }
+[constants]
+ms = { value = 220, unit = "kg" }
+mu = { value = 28, unit = "kg" }
+[parameters]
+ks = { initial = 10000, unit = "N/m", min = 0 }
+kt = { initial = 100000, unit = "N/m", min = 0 }
+cs = { initial = 900, unit = "N.s/m", min = 0 }
+[[equation]]
+name = "body"
+ode = "ms*der(xs,2) = -ks*(xs-xu) - cs*(der(xs)-der(xu))"
+[[equation]]
+name = "wheel"
+ode = "mu*der(xu,2) = ks*(xs-xu) + cs*(der(xs)-der(xu)) - kt*(xu-r)"
+"""
+        found, amended = self.discover(model, recording)
+        self.assertEqual((found["verdict"], names(found)), ("named", ["coulomb_friction"]))
+        self.assertEqual(found["effects"][0]["equation"], "body, wheel")
+        self.assertLess(abs(values(found)["Tc"] / 25.0 - 1), 0.05)
+        self.assertIn("- Tc*sgn(der(xs)-der(xu))", amended)
+        self.at_the_floor(found)
 
     def test_a_wrong_constant_and_a_wrong_sensor_are_the_same_without_an_angle(self):
         wrong = MOTOR.format(name="m").replace("K = { value = 0.05,", "K = { value = 0.052,")

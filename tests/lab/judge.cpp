@@ -101,6 +101,18 @@ TEST_CASE("verdict: above the noise a name holds below twice the noise, with 60 
     CHECK(verdict(noise_alone(), 3, {1.81, true, false, 51}) == Verdict::unknown);
 }
 
+TEST_CASE("verdict: where no equation has rows in which a shape could be looked for, nothing added is none only of a white error") {
+    const Workplace& w = noise_alone();
+    Variant hidden = at(*w.nominal, 1.5);
+    CHECK(lab::judge(*w.bench, hidden, selected(hidden)) == Verdict::none);
+    hidden.score.independent = {100};   // ten rows count as one
+    CHECK(lab::judge(*w.bench, hidden, selected(hidden)) == Verdict::none);      // the rows of its equation show no shape
+    hidden.bench.measured[static_cast<std::size_t>(hidden.model.signal_index("u"))].clear();
+    CHECK(lab::judge(*w.bench, hidden, selected(hidden)) == Verdict::unknown);   // nobody measures what drives it: no rows
+    hidden.score.independent = {1000};
+    CHECK(lab::judge(*w.bench, hidden, selected(hidden)) == Verdict::none);
+}
+
 TEST_CASE("verdict: beyond twice the noise nothing added is none only where the error is as rough as a sensor's") {
     const Workplace& w = noise_alone();
     for (const double share : {0.71, 0.69}) {   // of the rows, that count as independent: 0.7 is the limit

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "lab/amend.hpp"
+#include "lab/couplings.hpp"
 #include "lab/equation_places.hpp"
 
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using namespace algest;
 
 /// Every text that an effect of the library makes of a model, all signals measured unless named in `without`.
-std::vector<std::string> amended_by(const std::string& effect, const std::string& text, const std::string& without = "") {
+std::vector<std::string> amended_by(const std::string& effect, const std::string& text, const std::string& without = "", bool every_unit_known = true) {
     Diagnostics said;
     const auto model = model::read_from_text(text, "m.toml", false, said);
     for (const auto& d : said.sorted()) UNSCOPED_INFO(d.text());
@@ -24,7 +25,7 @@ std::vector<std::string> amended_by(const std::string& effect, const std::string
         if (e.name != effect) continue;
         for (const lab::Binding& b : lab::bindings(e, *model, measured)) {
             out.push_back(lab::amended(text, *model, lab::amendment(b, *model, 0.25)));
-            CHECK(model::read_from_text(out.back(), "m.toml", true, said));
+            CHECK(model::read_from_text(out.back(), "m.toml", every_unit_known, said));
             for (const auto& d : said.sorted()) UNSCOPED_INFO(d.text());
         }
     }
@@ -75,8 +76,121 @@ TEST_CASE("a sensor's gain divides its signal and the derivative in every equati
 TEST_CASE("a sensor's bias leaves the derivative") {
     const auto texts = amended_by("sensor_bias", motor);
     REQUIRE(texts.size() == 3);
-    CHECK(has(texts[0], "ode = \"L*der(i) = u - R*(i - bias) - K*w\"   # copper\n"));
+    CHECK(has(texts[0], "ode = \"L*der(i) = u - R*(-bias + i) - K*w\"   # copper\n"));
     CHECK(has(texts[0], "bias = { initial = 0, unit = \"A\" }"));
+}
+
+TEST_CASE("a sensor of degC may be off too, by a difference of temperatures, which has no unit of its own") {
+    const auto texts = amended_by("sensor_bias", R"toml(name = "m"
+[signals]
+u = { unit = "V" }
+T = { unit = "degC", initial = 20 }
+[constants]
+Ta = { value = 20, unit = "degC" }
+[parameters]
+C = { initial = 5, unit = "J/K" }
+h = { initial = 1, unit = "W/K" }
+k = { initial = 2, unit = "W/V" }
+[[equation]]
+ode = "C*der(T) = k*u - h*(T - Ta)"
+)toml", "", false);
+    REQUIRE(texts.size() == 1);
+    CHECK(has(texts[0], "ode = \"C*der(T) = k*u - h*((-bias + T) - Ta)\"\n"));
+    CHECK(has(texts[0], "bias = { initial = 0 }"));
+}
+
+TEST_CASE("a signal that is spelled like a name of the effect's own keeps it, the effect's gets a number") {
+    const auto texts = amended_by("actuator_lag", R"toml(name = "m"
+[signals]
+tau = { unit = "N.m" }
+w = { unit = "rad/s", initial = 0 }
+[parameters]
+J = { initial = 3e-4, unit = "kg.m^2" }
+b = { initial = 1e-4, unit = "N.m.s/rad" }
+[[equation]]
+ode = "J*der(w) = tau - b*w"
+)toml");
+    REQUIRE(texts.size() == 1);
+    CHECK(has(texts[0], "ode = \"J*der(w) = lagged - b*w\"\n"));
+    CHECK(has(texts[0], "ode = \"tau2*der(lagged) = tau - lagged\"\n"));
+}
+
+TEST_CASE("inputs of one unit have one amplifier, those of another unit have another") {
+    const auto texts = amended_by("actuator_lag", R"toml(name = "m"
+[signals]
+r = { unit = "m" }
+F1 = { unit = "N" }
+F2 = { unit = "N" }
+x = { unit = "m", initial = 0 }
+y = { unit = "m", initial = 0 }
+[parameters]
+m = { initial = 2, unit = "kg" }
+k = { initial = 300, unit = "N/m" }
+[[equation]]
+ode = "m*der(x,2) = F1 - k*(x - r)"
+[[equation]]
+ode = "m*der(y,2) = F2 - k*y"
+)toml");
+    REQUIRE(texts.size() == 2);
+    CHECK(has(texts[1], "ode = \"m*der(x,2) = lagged - k*(x - r)\"\n"));
+    CHECK(has(texts[1], "ode = \"m*der(y,2) = lagged2 - k*y\"\n"));
+    CHECK(has(texts[0], "ode = \"m*der(x,2) = F1 - k*(x - lagged)\"\n"));
+    CHECK(has(texts[0], "ode = \"m*der(y,2) = F2 - k*y\"\n"));
+}
+
+TEST_CASE("what acts between two bodies comes into the balances of both, against each other") {
+    const std::string car = R"toml(name = "m"
+[signals]
+r = { unit = "m" }
+xs = { unit = "m", initial = 0 }
+xu = { unit = "m", initial = 0 }
+[parameters]
+ms = { initial = 220, unit = "kg" }
+mu = { initial = 28, unit = "kg" }
+ks = { initial = 12000, unit = "N/m" }
+kt = { initial = 116800, unit = "N/m" }
+[[equation]]
+name = "body"
+ode = "ms*der(xs,2) = -ks*(xs - xu)"
+[[equation]]
+name = "wheel"
+ode = "mu*der(xu,2) = ks*(xs - xu) - kt*(xu - r)"
+)toml";
+    const auto friction = amended_by("coulomb_friction", car);
+    REQUIRE(friction.size() == 3);
+    CHECK(has(friction[2], "ode = \"ms*der(xs,2) = -ks*(xs - xu) - Tc*sgn(der(xs)-der(xu))\"\n"));
+    CHECK(has(friction[2], "ode = \"mu*der(xu,2) = ks*(xs - xu) - kt*(xu - r) + Tc*sgn(der(xs)-der(xu))\"\n"));
+    const auto spring = amended_by("cubic_stiffness", car);
+    REQUIRE(spring.size() == 3);
+    CHECK(has(spring[2], "*(xs-xu)^3\"\n"));
+    CHECK(amended_by("constant_load", car).size() == 2);   // it hangs on no motion: nobody knows between what it acts
+    // A shaft: its bodies are known by their speeds.
+    const auto shaft = amended_by("quadratic_drag", R"toml(name = "m"
+[signals]
+T = { unit = "N.m" }
+w1 = { unit = "rad/s", initial = 0 }
+w2 = { unit = "rad/s", initial = 0 }
+[parameters]
+J1 = { initial = 1, unit = "kg.m^2" }
+J2 = { initial = 1, unit = "kg.m^2" }
+d = { initial = 1, unit = "N.m.s/rad" }
+[[equation]]
+ode = "J1*der(w1) = T - d*(w1 - w2)"
+[[equation]]
+ode = "J2*der(w2) = d*(w1 - w2)"
+)toml");
+    REQUIRE(shaft.size() == 3);
+    CHECK(has(shaft[2], "- kq*(w1-w2)*abs(w1-w2)\"\n"));
+    CHECK(has(shaft[2], "+ kq*(w1-w2)*abs(w1-w2)\"\n"));
+    // Two bodies that share nothing.
+    std::string apart = car;
+    apart.replace(apart.find("ks*(xs - xu) - kt"), 17, "ks*(xu - r) - kt");
+    CHECK(amended_by("coulomb_friction", apart).size() == 2);
+}
+
+TEST_CASE("the signs of a sum are turned, not those inside of its terms") {
+    CHECK(lab::turned("-a*(b - c) + d") == "+a*(b - c) - d");
+    CHECK(lab::turned("+k*x^-2 - e*-y") == "-k*x^-2 + e*-y");
 }
 
 TEST_CASE("a constant that is let go keeps its comment, its unit and its digits among the parameters") {
