@@ -43,7 +43,7 @@ inline bool normalise_rows(S* matrix, int rows, int unknowns) noexcept {
 /// number, whose rounding has 1e-11/sqrt(12) as its deviation; 2^-38 is a little more. In float it is the scalar's own.
 template <class S>
 constexpr S sample_resolution() noexcept {
-    return std::numeric_limits<S>::digits > 38 ? S(1) / S(1L << 19) / S(1L << 19) : std::numeric_limits<S>::epsilon();
+    return std::numeric_limits<S>::digits > 38 ? S(1) / S(1L << 19) / S(1L << 19) : S(std::numeric_limits<S>::epsilon());
 }
 
 /// What noise of the signal in a window makes of rows, as they will be once normalise_rows has divided them (matrix: before it). of_rows: of each
