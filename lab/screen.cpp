@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t bindings_of_one = 2;        ///< of one effect among those that the weak form takes
 constexpr double least_share = 0.1;               ///< of the free run's error, for what the weak form does not take
 constexpr double least_of_its_own = 1e-4;         ///< of an effect's slope that no parameter of the model makes
+constexpr double least_driven = 0.3;              ///< of what inputs do without an effect, that they have to do beside it: a law of the position alone
+                                                  ///< explains away a weight that is known, everything else of the equation at zero
 constexpr double probe = 0.02;                    ///< of what drives an equation, or of a value that is replaced
 constexpr double unsized_probe = 1e-3;            ///< where nothing tells its size, to begin with
 constexpr std::size_t lines_that_are_tried = 2;   ///< of each spectrum
@@ -160,6 +162,10 @@ private:
                     break;
                 }
                 const WeakFit after = weak_fit(*with, start);
+                if (input_size(*with, after.parameters) < least_driven * before->input) {   // it takes the place of what drives the machine
+                    least = -1;
+                    break;
+                }
                 const double freedom = std::max(after.windows - after.unknowns, 1);
                 const double strength = (before->fit.residual - after.residual) / (after.residual / freedom) / std::max(after.unknowns - before->fit.unknowns, 1);
                 if (strength < least) {
@@ -248,6 +254,7 @@ private:
     struct Before {
         WeakFit fit;
         std::size_t terms;
+        double input;
     };
 
     const std::optional<Before>& without(const std::string& equation, int intervals) {
@@ -256,7 +263,10 @@ private:
         if (known != before_.end()) return known->second;
         std::optional<Before> out;
         const auto form = weak_form(base_.model, bench_.stretches(base_, &Parts::fitted), index_of(base_.model, equation), intervals);
-        if (form) out = Before{weak_fit(*form, base_.fit.parameters), form->coefficients.size()};
+        if (form) {
+            const WeakFit fit = weak_fit(*form, base_.fit.parameters);
+            out = Before{fit, form->coefficients.size(), input_size(*form, fit.parameters)};
+        }
         return before_.emplace(key, std::move(out)).first->second;
     }
 

@@ -129,6 +129,17 @@ bool measured(const Bench& bench, const equation::OperatorForm& form) {
     return true;
 }
 
+bool has_input(const model::Model& model, const equation::OperatorForm& form, const equation::Term& term) {
+    const auto is_input = [&](int s) {
+        const auto moves_it = [&](const model::Equation& e) { return moved(model, e).signal == s; };
+        return model.signals[static_cast<std::size_t>(s)].column != time_column && std::none_of(model.equations.begin(), model.equations.end(), moves_it);
+    };
+    return std::any_of(term.product.begin(), term.product.end(), [&](const equation::Factor& f) {
+        const std::vector<int>& of = form.atoms[static_cast<std::size_t>(f.atom)].arguments;
+        return std::any_of(of.begin(), of.end(), is_input);
+    });
+}
+
 /// The form of an equation that every signal of it is measured for, on rows enough for two windows.
 std::optional<equation::OperatorForm> measured_form(const model::Model& model, const Bench& bench, std::size_t equation, Rows rows, int intervals) {
     auto form = form_with_held_parameters(model, equation);
@@ -179,6 +190,7 @@ std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench,
             if (static_cast<int>(k) == form->leading) out.leading[p] = uses(term.coefficient, p);
         }
         out.driven = out.driven || is_constant(term.coefficient);
+        out.of_input.push_back(has_input(model, *form, term));
     }
     return out;
 }
@@ -280,6 +292,14 @@ double driving_size(const WeakForm& form, const std::vector<double>& parameters)
         if (form.driven ? is_constant(form.coefficients[k]) : static_cast<int>(k) == form.first_leading) driving += value_of(form.coefficients[k], parameters) * form.columns.col(static_cast<Eigen::Index>(k));
     }
     return driving.norm() / std::sqrt(static_cast<double>(driving.size()));
+}
+
+double input_size(const WeakForm& form, const std::vector<double>& parameters) {
+    Eigen::VectorXd inputs = Eigen::VectorXd::Zero(form.columns.rows());
+    for (std::size_t k = 0; k < form.coefficients.size(); ++k) {
+        if (form.of_input[k]) inputs += value_of(form.coefficients[k], parameters) * form.columns.col(static_cast<Eigen::Index>(k));
+    }
+    return inputs.norm() / std::sqrt(static_cast<double>(inputs.size()));
 }
 
 Eigen::VectorXd weak_residual(const WeakForm& form, const std::vector<double>& parameters) {

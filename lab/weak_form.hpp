@@ -18,6 +18,7 @@ struct WeakForm {
     std::vector<bool> leading;                ///< by parameter: it stands in the leading coefficient
     int first_leading;                        ///< term of the leading derivative; -1: none
     bool driven;                              ///< some term has a known coefficient
+    std::vector<bool> of_input;               ///< by term: a signal that no equation moves stands in it
     std::vector<std::size_t> centre;          ///< by window: the sample in its middle
 };
 
@@ -66,6 +67,9 @@ WeakEstimate weak_estimate(const model::Model& model, const std::vector<BenchRow
 /// Rms over the windows of the driving side: the terms with known coefficients, else the leading one. Of a residual, the measure that
 /// R^2 = 1 - (rms residual / rms driving side)^2 is taken by.
 double driving_size(const WeakForm& form, const std::vector<double>& parameters);
+
+/// Rms over the windows of the terms with inputs in them; 0: there are none.
+double input_size(const WeakForm& form, const std::vector<double>& parameters);
 
 /// Standard deviation of a window's residual that white sensor noise makes, rms over the windows; 0 where the equation is not measured.
 /// noise: by signal, in its unit. A switch in a regressor counts as if it did not move.

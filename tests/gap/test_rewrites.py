@@ -171,6 +171,33 @@ ode = "m*der(x,2) = F - k*x - c*der(x)"
         found = self.sprung((lambda v, z: 0.0, lambda v, z: 0.0), 13)
         self.assertEqual((found["verdict"], names(found)), ("none", []))
 
+    def test_a_weight_that_is_known_is_not_explained_away(self):
+        """Waves over the angle add up to the known weight; everything else of the balance at zero, they would leave no residual."""
+        dice = random.Random(19)
+        recording = run(lambda s, V: [s[1], (0.1 * V - 0.5 * math.sin(s[0]) - 0.02 * s[1] - 0.02 * math.tanh(s[1] / 1e-2)) / 0.01], [0.0, 0.0], lambda k: dice.uniform(-2, 2) if k % 120 == 0 else None,
+                        lambda s: (s[0] + dice.gauss(0, 2e-4),), "t [s],V [V],q [rad]", 5000, steps=20)
+        model = """name = "lifted"
+[sampling]
+period = 1e-3
+[signals]
+V = { unit = "V", hold = "zoh" }
+q = { unit = "rad", noise = 2e-4, initial = 0 }
+[constants]
+mgl = { value = 0.5, unit = "N.m" }
+[parameters]
+k = { unit = "N.m/V", initial = 0.08, min = 0 }
+J = { unit = "kg.m^2", initial = 0.012, min = 0 }
+c = { unit = "N.m.s/rad", initial = 0.01, min = 0 }
+[[equation]]
+name = "torque balance"
+ode = "J*der(q,2) = k*V - mgl*sin(q) - c*der(q)"
+"""
+        found, _ = self.discover(model, recording)
+        self.assertEqual((found["verdict"], names(found)), ("named", ["coulomb_friction"]))
+        self.assertLess(abs(values(found)["Tc"] / 0.02 - 1), 0.05)
+        strength = {e["effect"]: e["strength"] for e in reversed(found["evidence"])}
+        self.assertEqual(max(strength, key=strength.get), "coulomb_friction")
+
     def test_friction_of_a_strut_between_two_bodies(self):
         dice = random.Random(17)
         strut = lambda v: 25.0 * math.tanh(v / 1e-3) + 700.0 * v

@@ -56,6 +56,7 @@ TEST_CASE("weak form: rows vanish at the truth and give it back, whatever the in
     // Signals taken as straight between samples: (11e-3)^2/12 = 1e-5 of the largest.
     CHECK(lab::weak_residual(*form, truth).cwiseAbs().maxCoeff() < 2e-5 * lab::driving_size(*form, truth));
     CHECK(lab::weak_residual(*form, {mass, 1.1 * damping}).cwiseAbs().maxCoeff() > 1e-3 * lab::driving_size(*form, truth));
+    CHECK(lab::input_size(*form, truth) == Approx(lab::driving_size(*form, truth)).epsilon(1e-12));   // F alone drives, with the known coefficient 1
     const lab::WeakFit found = lab::weak_fit(*form, {1.0, 1.0});
     CHECK(found.parameters[0] == Approx(mass).epsilon(1e-4));
     CHECK(found.parameters[1] == Approx(damping).epsilon(1e-4));
