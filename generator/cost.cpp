@@ -9,6 +9,7 @@
 #include "algest/dot.hpp"
 #include "algest/growing_moments.hpp"
 #include "algest/steady_state.hpp"
+#include "algest/triangle_update.hpp"
 #include "generator/blueprint.hpp"
 #include "generator/cpp_text.hpp"
 
@@ -140,6 +141,16 @@ long moment_rows(const Plan& plan, const plan::RowData<double>& rows) {
     return out;
 }
 
+/// Of push() once the rows of an instant are there: into the triangle, or into S(t), where five additions an entry count like products.
+long absorption(const Plan& plan) {
+    const int rows = static_cast<int>(plan.rows.size());
+    const int unknowns = static_cast<int>(plan.lumped.size());
+    const long entries = packed_size(unknowns + 1);
+    if (plan.solve == Solve::square) return 0;
+    if (plan.solve == Solve::robust) return (rows + 5) * entries;
+    return add_rows_cost(rows, unknowns) + (plan.keep == 1.0 ? 0 : entries);
+}
+
 /// What the margin over noise takes: at each operating point in push(), and in estimate() where that of an elimination is not counted with it.
 Cost margin_cost(const Plan& plan, const plan::RowData<double>& rows) {
     Cost out{};
@@ -186,6 +197,7 @@ Cost cost_of(const Plan& plan) {
         const long of_floor = plan.normalise ? static_cast<long>(plan.noise_floor.size()) : 0;
         out.table_bytes = (tables * plan.samples() + of_floor) * scalar_bytes(plan.scalar);
     }
+    out.push += absorption(plan);
     if (plan.uncertain()) {
         out.whitening = plan.whiten ? whitening(plan, rows) : 0;
         out.uncertainty = uncertainty(plan, rows, out.rows + out.whitening);

@@ -84,10 +84,11 @@ std::vector<std::string> single_precision_notes(const model::Model& model, const
         const std::string parameters = parameters_from(rows.unknowns, model, lumping);
         if (rounding * amplified < most_without_a_word || parameters.empty()) continue;
         const double worst = 100.0 * rounding * amplified;
+        const std::string advice = worst < 10.0 ? "a condition_limit that leaves what you can bear, or double, avoids it" : "use double";
         out.push_back(fmt::format("single precision: the rows of '{}' (n + kappa = {}) take differences of numbers {:.0f} times larger, so that rounding moves {} by up to about condition{} * {:.1g}, "
-                                  "{} at the condition limit {:.4g}; use double, or a condition_limit that leaves what you can bear",
+                                  "{} at the condition limit {:.4g}, at the worst; {}",
                                   equation.name, equation.n + equation.kappa, cln::double_approx(rows.cancellation), parameters, squared ? "^2" : "", rounding,
-                                  worst < 100.0 ? fmt::format("{:.1g} %", worst) : std::string("more than all of it"), plan.condition_limit));
+                                  worst < 100.0 ? fmt::format("{:.0f} %", worst) : std::string("more than all of it"), plan.condition_limit, advice));
     }
     return out;
 }

@@ -91,13 +91,16 @@ std::size_t behind_last(const std::string& text, const Names& names) {
     return end == std::string::npos ? text.size() : end + 1;
 }
 
-/// Behind the line [table], with or without a comment; npos where there is none.
+/// Behind the line [table], with or without a comment; npos where there is none. A line of this kind inside a text of several lines would be taken
+/// for it: the model is then none, which whoever asked for the amendment finds out by reading it.
 std::size_t behind_header(const std::string& text, const std::string& table) {
-    std::size_t end = 0;
-    for (std::size_t at = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
         std::string line = text.substr(at, end - at);
         line.erase(std::remove_if(line.begin(), line.end(), [](char c) { return c == ' ' || c == '\t' || c == '\r'; }), line.end());
-        if (line.substr(0, line.find('#')) == "[" + table + "]") return end + 1;
+        const std::size_t next = std::min(end + 1, text.size());
+        if (line.substr(0, line.find('#')) == "[" + table + "]") return next;
+        at = next;
     }
     return std::string::npos;
 }
@@ -172,8 +175,7 @@ public:
     void declare(const Names& declared, const std::string& table, const std::string& name, const std::vector<std::string>& keys, const std::string& because) {
         const std::size_t where = place_of_entries(declared, table);
         if (where != std::string::npos) {
-            const bool needs_break = where == text_.size() && !text_.empty() && text_.back() != '\n';
-            insert(where, fmt::format("{}{} = {{ {} }}   # {}\n", needs_break ? "\n" : "", name, fmt::join(keys, ", "), because));
+            insert_line(where, fmt::format("{} = {{ {} }}   # {}\n", name, fmt::join(keys, ", "), because));
         } else {
             own_tables_ += fmt::format("\n[{}.{}]   # {}\n{}\n", table, name, because, fmt::join(keys, "\n"));
         }
@@ -198,7 +200,7 @@ public:
         entry.replace(value, 5, "initial");
         const std::size_t where = place_of_entries(model_.parameters, "parameters");
         splices_.push_back({start, end, ""});
-        if (where != std::string::npos) insert(where, entry);
+        if (where != std::string::npos) insert_line(where, entry);
         else own_tables_ += "\n[parameters]\n" + entry;
         return true;
     }
@@ -244,6 +246,12 @@ private:
     }
 
     static std::string in_parentheses(const std::string& text) { return "(" + text + ")"; }
+
+    /// A line of its own, also behind a last line that does not end.
+    void insert_line(std::size_t at, const std::string& line) {
+        const bool needs_break = at == text_.size() && !text_.empty() && text_.back() != '\n';
+        insert(at, (needs_break ? "\n" : "") + line);
+    }
 
     void insert(std::size_t at, std::string text) { splices_.push_back({at, at, std::move(text)}); }
 

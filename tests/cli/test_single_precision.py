@@ -62,28 +62,27 @@ class SinglePrecision(CommandLine):
         (note,) = self.notes(SOURCE / "models/dc_motor.toml")
         self.assertIn("'transfer' (n + kappa = 3)", note)
         self.assertIn("moves 'a1', 'a2', 'b0' by up to about condition * ", note)
-        self.assertIn("use double", note)
+        self.assertIn("4 % at the condition limit 8400", note)
         (note,) = self.notes(SOURCE / "models/magnetic_bearing.toml")   # the kernels of order 2 with a constant force are those of order 3
         self.assertIn("moves 'lambda1', 'lambda2', 'lambda3' by up to about condition^2 * ", note)
         for model in ("pmsm_electrical", "rl_circuit", "pendulum"):   # n + kappa up to 2
             self.assertEqual(self.notes(SOURCE / f"models/{model}.toml"), [])
 
     def test_the_figure_is_what_replay_finds(self):
-        """99 of 100 samples lie below the figure, and it is no more than thirty times what the worst of these 99 meet."""
+        """99 of 100 samples lie below the figure, whichever the parameter; and no parameter would do with a figure a hundred times smaller."""
         self.write("r.csv", recording())
         for solver, power in (("square", 1), ("robust", 2)):
             self.write("cart.toml", CART.replace("SOLVE", solver))
             (note,) = self.notes("cart.toml")
             figure = float(re.search(r"condition(?:\^2)? \* ([-+.e0-9]+),", note)[1])
-            ratios = []
-            for double, single in zip(self.estimates("double"), self.estimates("float")):
-                if double["status"] == single["status"] == "ok":
-                    error = abs(float(single["gain [m/(V.s^3)]"]) / float(double["gain [m/(V.s^3)]"]) - 1)
-                    ratios.append(error / float(double["condition"]) ** power / figure)
-            self.assertGreater(len(ratios), 500)
-            most = sorted(ratios)[len(ratios) * 99 // 100]
-            self.assertLess(most, 1)
-            self.assertGreater(most, 1 / 30)
+            pairs = [(d, f) for d, f in zip(self.estimates("double"), self.estimates("float")) if d["status"] == f["status"] == "ok"]
+            self.assertGreater(len(pairs), 500)
+            worst = []
+            for name in ("damping [1/s]", "stiffness [1/s^2]", "gain [m/(V.s^3)]"):
+                ratios = sorted(abs(float(f[name]) / float(d[name]) - 1) / float(d["condition"]) ** power / figure for d, f in pairs)
+                worst.append(ratios[len(ratios) * 99 // 100])
+            self.assertLess(max(worst), 1)
+            self.assertGreater(max(worst), 0.01)   # two digits more than this are no figure to choose a scalar by
 
 
 if __name__ == "__main__":

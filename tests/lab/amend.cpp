@@ -36,12 +36,12 @@ name = "b"
 unit = "{equation}/({speed})"
 )toml";
 
-/// The amended text for an effect with these words behind its parameter, at a value that the fit found.
-std::string with(const std::string& bound, double value) {
+/// The amended text for the only place of an effect in a model.
+std::string amended_by(const std::string& text, const std::string& effect, double value) {
     Diagnostics said;
-    const auto model = model::read_from_text(model_text, "m.toml", false, said);
+    const auto model = model::read_from_text(text, "m.toml", false, said);
     test::TemporaryFolder folder;
-    folder.write("drag.toml", effect_text + bound);
+    folder.write("effect.toml", effect);
     const auto effects = lab::read_effects({folder.path("")}, said);
     for (const auto& d : said.sorted()) UNSCOPED_INFO(d.text());
     REQUIRE(model);
@@ -50,8 +50,15 @@ std::string with(const std::string& bound, double value) {
     REQUIRE(places.size() == 1);
     lab::Amendment a = lab::amendment(places[0], *model, 0);
     a.names[0].value = value;
-    const std::string out = lab::amended(model_text, *model, a);
+    const std::string out = lab::amended(text, *model, a);
+    UNSCOPED_INFO(out);
     CHECK(model::read_from_text(out, "m.toml", true, said));   // an initial value outside of [min, max] would be an error
+    return out;
+}
+
+/// The keys of an effect with these words behind its parameter, at a value that the fit found.
+std::string with(const std::string& bound, double value) {
+    const std::string out = amended_by(model_text, effect_text + bound, value);
     return out.substr(out.find("b = "), out.find(" }   #") - out.find("b = "));
 }
 
@@ -68,16 +75,14 @@ TEST_CASE("a parameter's min goes into the amended model by its value, and its s
 }
 
 TEST_CASE("new entries go behind the header of an empty table, and a constant that is let go too") {
-    const std::string text = R"toml(name = "m"
+    const std::string machine = R"toml(name = "m"
 [signals]
 u = { unit = "N", initial = 0 }
 v = { unit = "m/s", initial = 0 }
 [constants]
 m = { value = 2, unit = "kg" }
-[ parameters ]   # none yet
-[[equation]]
-ode = "m*der(v) = u"
 )toml";
+    const std::string balance = "[[equation]]\node = \"m*der(v) = u\"\n";
     const std::string let_go = R"toml(name = "wrong"
 summary = "a constant is wrong"
 shows = "what it multiplies"
@@ -88,22 +93,8 @@ known = "constant"
 kind = "free_constant"
 what = "{known}"
 )toml";
-    for (const auto& [effect, entry] : {std::pair(std::string(effect_text), "# none yet\nb = { initial = 3"), std::pair(let_go, "# none yet\nm = { initial = 3, unit = \"kg\" }\n")}) {
-        Diagnostics said;
-        const auto model = model::read_from_text(text, "m.toml", false, said);
-        test::TemporaryFolder folder;
-        folder.write("effect.toml", effect);
-        const auto effects = lab::read_effects({folder.path("")}, said);
-        for (const auto& d : said.sorted()) UNSCOPED_INFO(d.text());
-        REQUIRE(model);
-        REQUIRE(effects.size() == 1);
-        const auto places = lab::bindings(effects[0], *model, {true, true});
-        REQUIRE(places.size() == 1);
-        lab::Amendment a = lab::amendment(places[0], *model, 0);
-        a.names[0].value = 3;
-        const std::string out = lab::amended(text, *model, a);
-        INFO(out);
-        CHECK(out.find(entry) != std::string::npos);
-        CHECK(model::read_from_text(out, "m.toml", true, said));
+    for (const std::string& text : {machine + "[ parameters ]   # none yet\n" + balance, machine + balance + "[ parameters ]   # none yet"}) {   // the last line does not end
+        CHECK(amended_by(text, effect_text, 3).find("# none yet\nb = { initial = 3") != std::string::npos);
+        CHECK(amended_by(text, let_go, 3).find("# none yet\nm = { initial = 3, unit = \"kg\" }\n") != std::string::npos);
     }
 }

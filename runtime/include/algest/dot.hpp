@@ -98,7 +98,7 @@ constexpr int first_of_sizes(int count) noexcept {
 
 }  // namespace detail
 
-/// Products that dot_sizes forms for a table: all of few samples, else those of 8 to 9 groups.
+/// Products that dot_sizes forms for a table: all of few samples, else those of 8 to 12 groups.
 template <class S>
 constexpr int size_products(int count) noexcept {
     constexpr int width = detail::Neighbours<S>::width;
@@ -106,7 +106,7 @@ constexpr int size_products(int count) noexcept {
     return stride == width ? count : ((count - width - detail::first_of_sizes<S>(count)) / stride + 1) * width;
 }
 
-/// sizes[t] = sum over k of |weights[t][k] * samples[k]|, about: by the midpoint rule over 8 to 15 strides, each with the products of neighbours in
+/// sizes[t] = sum over k of |weights[t][k] * samples[k]|, about: by the midpoint rule over 8 to 12 strides, each with the products of neighbours in
 /// its middle; every product where there are fewer. What dots() may leave of a sum that vanishes is measured by it.
 /// Cost: size_products multiplications and additions a table, 63 at most (double: 31).
 template <int tables, class S>
