@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/replay_answer.hpp"
 #include "lab/discrete_system.hpp"
+#include "lab/doubt.hpp"
 #include "lab/standstill.hpp"
 
 namespace algest::cli {
@@ -24,6 +26,43 @@ std::optional<std::string> what_stands_still(const plan::Plan& plan, const lab::
     return still ? std::optional(fmt::format("behind the last estimate, from {:.6g} to {:.6g} s: {}", from, to, *still)) : std::nullopt;
 }
 
+/// What made samples singular, where most of those that were solved are.
+std::optional<std::string> what_makes_singular(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary) {
+    const std::size_t singular = summary.count[static_cast<std::size_t>(Status::singular)];
+    if (singular <= summary.count[static_cast<std::size_t>(Status::ok)]) return std::nullopt;
+    std::size_t without_rank = 0;
+    std::size_t by_condition = 0;
+    for (std::size_t k = 0; k < replay.samples(); ++k) {
+        if (replay.status[k] != Status::singular) continue;
+        if (std::isinf(replay.condition[k])) ++without_rank;
+        else if (replay.condition[k] > plan.condition_limit) ++by_condition;
+    }
+    std::string out = fmt::format("{} samples are singular:", singular);
+    const auto add = [&](std::size_t count, const std::string& why) { if (count > 0) out += fmt::format("{} {} {}", out.back() == ':' ? "" : ",", count, why); };
+    add(without_rank, "since rows depend on each other");
+    add(by_condition, fmt::format("by a condition above condition_limit = {:.4g}", plan.condition_limit));
+    add(singular - without_rank - by_condition, "by noise, of which unknowns are made too uncertain or which is most of what the rows see");
+    return out;
+}
+
+/// Estimates that cannot be: how many of the ok ones lie beyond a declared min or max. Noise takes a few of them across.
+void add_what_lies_beyond(const std::string& path, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, std::size_t ok, Diagnostics& diagnostics) {
+    constexpr double a_few = 0.05;
+    Diagnostics said_before;   // by plan_from_model, of the same file
+    const auto model = model::read(path, false, said_before);
+    if (!model) return;
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
+        const int declared = model->parameter_index(plan.parameters[p].name);
+        if (declared < 0) continue;
+        const model::Parameter& parameter = model->parameters[static_cast<std::size_t>(declared)];
+        const lab::Limits limits = lab::limits_of(parameter);
+        std::size_t beyond = 0;
+        for (std::size_t k = 0; k < replay.samples(); ++k) beyond += replay.status[k] == Status::ok && !limits.hold(replay.parameter(k, p)) ? 1 : 0;
+        if (static_cast<double>(beyond) <= a_few * static_cast<double>(ok)) continue;
+        diagnostics.note(recording.file, fmt::format("{} of {} ok estimates of {} lie beyond its min or max: a sensor that is stuck, a unit, or what the model misses (algest discover)", beyond, ok, parameter.name));
+    }
+}
+
 bool every_window_is_singular(const lab::ReplaySummary& summary) {
     return summary.count[static_cast<std::size_t>(Status::ok)] == 0 && summary.count[static_cast<std::size_t>(Status::singular)] > 0;
 }
@@ -33,7 +72,10 @@ bool every_window_is_singular(const lab::ReplaySummary& summary) {
 void add_remarks(const std::string& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay,
                  const lab::ReplaySummary& summary, Diagnostics& diagnostics) {
     if (const auto advice = lab::advice_on_domain(plan, replay)) diagnostics.note(model, *advice);
-    if (summary.count[static_cast<std::size_t>(Status::ok)] == 0) return;
+    if (const auto why = what_makes_singular(plan, replay, summary)) diagnostics.note(recording.file, *why);
+    const std::size_t ok = summary.count[static_cast<std::size_t>(Status::ok)];
+    if (ok == 0) return;
+    add_what_lies_beyond(model, plan, recording, replay, ok, diagnostics);
     if (const auto still = what_stands_still(plan, recording, stretch, replay)) diagnostics.note(recording.file, *still);
 }
 

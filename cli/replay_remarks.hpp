@@ -11,7 +11,8 @@
 
 namespace algest::cli {
 
-/// Notes of one replay: of the model, that another domain would serve; of the recording, that estimates rest on noise alone.
+/// Notes of one replay: of the model, that another domain would serve; of the recording, why most samples are singular, that estimates rest on noise
+/// alone or lie beyond their limits. Cost: samples x parameters.
 void add_remarks(const std::string& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay,
                  const lab::ReplaySummary& summary, Diagnostics& diagnostics);
 

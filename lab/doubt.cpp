@@ -4,21 +4,29 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace algest::lab {
 
 namespace {
 
+double number(const exact::Rational& x) { return exact::nearest(x, plan::Scalar::float64); }
+
 /// The declared limit or sign that the value contradicts.
 std::optional<std::string> contradicted(const model::Parameter& p, double value) {
-    const auto number = [](const exact::Rational& x) { return exact::nearest(x, plan::Scalar::float64); };
-    if (p.min && value < number(*p.min)) return "min = " + exact::decimal(*p.min);
-    if (p.max && value > number(*p.max)) return "max = " + exact::decimal(*p.max);
+    const Limits limits = limits_of(p);
+    if (value < limits.min) return "min = " + exact::decimal(*p.min);
+    if (value > limits.max) return "max = " + exact::decimal(*p.max);
     if (p.initial && value * number(*p.initial) < 0.0) return "the sign of initial = " + exact::decimal(*p.initial);
     return std::nullopt;
 }
 
 }  // namespace
+
+Limits limits_of(const model::Parameter& parameter) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return {parameter.min ? number(*parameter.min) : -none, parameter.max ? number(*parameter.max) : none};
+}
 
 std::optional<std::string> doubt(const model::Parameter& parameter, double value, std::optional<double> deviation) {
     const auto against = contradicted(parameter, value);

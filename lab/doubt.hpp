@@ -12,6 +12,14 @@ namespace algest::lab {
 /// know nothing of what the model lacks, and a real machine's model lacks something.
 constexpr double told_from_zero = 3.0;
 
+/// The declared min and max of a parameter; infinite where none is.
+struct Limits {
+    double min;
+    double max;
+    bool hold(double value) const { return value >= min && value <= max; }
+};
+Limits limits_of(const model::Parameter& parameter);
+
 /// In words, for people; empty where nothing speaks against the value. deviation: empty where it is not known.
 std::optional<std::string> doubt(const model::Parameter& parameter, double value, std::optional<double> deviation);
 

@@ -33,7 +33,7 @@ namespace generated {
 /// Contract: no heap, no exceptions, no virtual calls, no loops whose length depends on data (libm's functions aside). Trivially
 /// copyable; instances are independent; tables are constant and shared. One thread or interrupt may call push() while another
 /// calls estimate(): an estimate() that more than 3 pushes overtake returns the one before. reset() needs both at rest.
-/// Cost: 451 multiply-adds in push(), 0 in estimate(), besides one solve of 2 x 8. The solve finds the real
+/// Cost: 865 multiply-adds in push(), 0 in estimate(), besides one solve of 2 x 8. The solve finds the real
 /// roots of polynomials, 195260 multiply-adds and divisions at most, with 2824 bytes of stack.
 /// Memory: 4072 bytes an instance, 8 bytes of tables.
 class PmsmSensorlessVoltage {

@@ -18,7 +18,7 @@ const std::string coils = R"toml(format = 1
 name = "coils"
 [sampling]
 period = 1e-3
-window = 0.3
+window = 1
 [signals]
 v = { unit = "V", hold = "zoh" }
 i = { unit = "A", noise = 1e-3 }
@@ -81,7 +81,7 @@ Counts counts(const plan::Plan& plan) {
     return out;
 }
 
-/// A count is at most 2 percent from what is stated: left out are the products of factors, a dozen of thousands, and the solve of two unknowns.
+/// A count is at most 2 percent from what is stated: left out are the products of factors and the solve of two unknowns, a hundred of eight thousand.
 /// evaluations: of all rows; sizes of dot products are stated for pairs of neighbours, and counted without neighbours.
 void check(const plan::Plan& plan, long counted, long stated, int evaluations) {
     const auto rows = plan::make_rows<double>(plan.rows, static_cast<int>(plan.lumped.size()));

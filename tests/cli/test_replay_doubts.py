@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What replay says of estimates that cannot be, and of samples that gave none."""
+import random
+import unittest
+
+from command_line import CommandLine
+from environment import SOURCE
+
+RL = (SOURCE / "models/rl_circuit.toml").read_text()
+
+
+def recording(reversed_from=10**9, noise=0.001):
+    """A coil of 3 ohm and 9 mH under a square wave, Euler's steps; from one sample on its current sensor is connected the wrong way round."""
+    random.seed(7)
+    i, rows = 4.0, ["t [s],v [V],i [A]"]
+    for k in range(1500):
+        v = 12.0 + 6.0 * (k // 40 % 2)
+        shown = i + noise * random.gauss(0, 1)
+        rows.append(f"{k * 1e-4:.4f},{v!r},{-shown if k >= reversed_from else shown!r}")
+        i += 1e-4 * (v - 3.0 * i) / 9e-3
+    return "\n".join(rows) + "\n"
+
+
+class ReplayDoubts(CommandLine):
+    def said(self, model, text):
+        self.write("m.toml", model)
+        self.write("r.csv", text)
+        status = self.algest_json("replay", "m.toml", "r.csv")["status"]
+        return status, self.algest("replay", "m.toml", "r.csv")[1]
+
+    def test_estimates_beyond_their_limits_are_counted(self):
+        self.assertIn("min = 0", RL)
+        status, err = self.said(RL, recording(reversed_from=700))
+        # all windows that lie behind the change: the resistance is negative in each
+        self.assertRegex(err, rf"r.csv: note: (\d+) of {status['ok']} ok estimates of R lie beyond its min or max")
+        _, err = self.said(RL, recording())
+        self.assertNotIn("lie beyond", err)
+        _, err = self.said(RL.replace(", min = 0", ""), recording(reversed_from=700))   # no limit, no doubt
+        self.assertNotIn("lie beyond", err)
+
+    def test_why_samples_are_singular(self):
+        def note(err):
+            return next((line for line in err.splitlines() if "samples are singular" in line), None)
+        status, err = self.said(RL + "condition_limit = 1.01\n", recording())
+        self.assertGreater(status["singular"], 1000)
+        self.assertIn(f"{status['singular']} samples are singular: {status['singular']} by a condition above condition_limit = 1.01", note(err))
+        noisy = RL.replace('i = { unit = "A" }', 'i = { unit = "A", noise = 0.001 }')
+        status, err = self.said(noisy + "deviation_limit = 1e-6\n", recording())
+        self.assertIn(f"{status['singular']} samples are singular: {status['singular']} by noise", note(err))
+        still = "\n".join(["t [s],v [V],i [A]", *(f"{k * 1e-4:.4f},0,0" for k in range(1500))]) + "\n"
+        status, err = self.said(RL, still)
+        self.assertIn(f"{status['singular']} samples are singular: {status['singular']} since rows depend on each other", note(err))
+        _, err = self.said(RL, recording())
+        self.assertIsNone(note(err))
+
+
+if __name__ == "__main__":
+    unittest.main()
