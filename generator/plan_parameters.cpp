@@ -50,7 +50,7 @@ void elimination(const lumping::Lumping& lumping, plan::Plan& plan) {
         round(stage.alone);
         round(stage.summands);
     }
-    if (plan.scalar == plan::Scalar::float32) plan.notes.push_back("single precision does not hold the coefficients of a resultant, nor the products of signals of different sizes: use double");
+    if (plan.scalar == plan::Scalar::float32) plan.notes.emplace_back("single precision does not hold the coefficients of a resultant, nor the products of signals of different sizes: use double");
 }
 
 void derivatives_of_the_map(const model::Model& model, const lumping::Lumping& lumping, plan::Plan& plan) {

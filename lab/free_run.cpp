@@ -3,8 +3,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
+#include <utility>
 
 #include "generator/tape.hpp"
 #include "lab/input_jumps.hpp"

@@ -2,7 +2,7 @@
 // Where no measured recording is at hand: a linear axis with the published parameters of the EMPS benchmark, moved to and fro by a
 // position controller. Writes the recording to standard output. The force is held over each millisecond, the encoder counts 0.1 um.
 #include <array>
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cmath>
 #include <cstdio>
 

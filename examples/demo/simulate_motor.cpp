@@ -3,7 +3,7 @@
 //   simulate_motor SEED RECORDING.csv HIDDEN.txt
 // Steps of voltage both ways every 0.12 s, held over each millisecond; noise on current and speed as motor.toml declares it.
 #include <array>
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -2,7 +2,10 @@
 // The simulated shaft in its bearing, equations (34) and (35) of Delpoux, Floquet 2015, under currents that are held. Yours is the
 // real one.
 #pragma once
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <vector>
 
 #include "magnets.hpp"

@@ -6,7 +6,7 @@
 
 #include "controller.hpp"
 #include "estimator_input.hpp"
-#include "motor.hpp"
+#include "motion.hpp"
 
 namespace pmsm_drive {
 

@@ -35,7 +35,7 @@ def differences(one, other):
 
 
 def built_generator(compiler, level, folder):
-    """Configures and builds target `algest` of this source with that compiler and optimisation; its path. Skips without the compiler."""
+    """Builds the generator alone (generate.cpp) from this source with that compiler and optimisation; its path. Skips without the compiler."""
     path = shutil.which(compiler)
     if path is None:
         skip(f"no {compiler}")
@@ -44,9 +44,10 @@ def built_generator(compiler, level, folder):
     ninja = ["-G", "Ninja"] if shutil.which("ninja") else []
     # Debug, so that the project's own flags for Release do not follow ours.
     run("cmake", "-S", SOURCE, "-B", build, *ninja, f"-DCMAKE_CXX_COMPILER={path}", "-DCMAKE_BUILD_TYPE=Debug",
-        f"-DCMAKE_CXX_FLAGS_DEBUG={level}", "-DALGEST_TESTS=OFF")
-    run("nice", "cmake", "--build", build, "--target", "algest", "--parallel", os.cpu_count() or 1)
-    comment = subprocess.run(["readelf", "-p", ".comment", build / "algest"], capture_output=True, text=True, check=False).stdout
+        f"-DCMAKE_CXX_FLAGS_DEBUG={level}")
+    run("nice", "cmake", "--build", build, "--target", "generate_alone", "--parallel", os.cpu_count() or 1)
+    generator = build / "tests" / "generate_alone"
+    comment = subprocess.run(["readelf", "-p", ".comment", generator], capture_output=True, text=True, check=False).stdout
     compilers = " / ".join(line.split("]")[-1].strip() for line in comment.splitlines() if "]" in line)
     print(f"{compiler} {level}: built in {time.monotonic() - began:.0f} s; the binary names {compilers}")
-    return build / "algest"
+    return generator

@@ -3,6 +3,7 @@
 // hold, quadrature and solve, under two compilers and from no optimisation to all of it.
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>

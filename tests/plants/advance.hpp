@@ -3,23 +3,23 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <boost/numeric/odeint.hpp>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace algest::plants {
 
-/// Moves the state from one instant to another. derivative(x, dxdt, t). The error of a step is kept below 1e-13 of the
-/// state, far below every error of an estimate that the tests look for.
-template <std::size_t N, class Derivative>
-void advance(std::array<double, N>& state, double from, double to, Derivative derivative) {
-    namespace odeint = boost::numeric::odeint;
-    using Vector = std::vector<double>;
-    constexpr double absolute = 1e-18;  // the bearing moves by micrometres
-    constexpr double relative = 1e-13;
-    Vector x(state.begin(), state.end());
-    odeint::integrate_adaptive(odeint::make_controlled<odeint::runge_kutta_fehlberg78<Vector>>(absolute, relative),
-                               derivative, x, from, to, to - from);
+/// derivative(x, dxdt, t)
+using Derivative = std::function<void(const std::vector<double>&, std::vector<double>&, double)>;
+
+/// Moves the state from one instant to another. The error of a step is kept below 1e-13 of the state, far below every error of an
+/// estimate that the tests look for. Compiled once, in advance.cpp: Odeint costs seconds in each file that includes it.
+void advance(std::vector<double>& state, double from, double to, const Derivative& derivative);
+
+template <std::size_t N>
+void advance(std::array<double, N>& state, double from, double to, const Derivative& derivative) {
+    std::vector<double> x(state.begin(), state.end());
+    advance(x, from, to, derivative);
     std::copy(x.begin(), x.end(), state.begin());
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An estimator of a model with delay(): the same, to the last bit, as that of the plain model fed with what the delay makes of the samples.
+#include <cstring>
+
 #include "algest/delay_line.hpp"
 #include "tests/plants/changed_model.hpp"
 #include "tests/plants/coverage.hpp"

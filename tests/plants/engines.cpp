@@ -121,7 +121,7 @@ TEST_CASE("where moments will not do, fir does, and the notes say why") {
         const plan::Plan plan = plan_of(model);
         CHECK_FALSE(plan.moments);
         CHECK_FALSE(plan.tables[0].weights.empty());
-        const auto said = [&](const std::string& note) { return note.find("fir instead of moments") != std::string::npos && note.find(why) != std::string::npos; };
+        const auto said = [&reason = why](const std::string& note) { return note.find("fir instead of moments") != std::string::npos && note.find(reason) != std::string::npos; };
         CHECK(std::any_of(plan.notes.begin(), plan.notes.end(), said));
     }
     CHECK(plan_of(pmsm).moments);

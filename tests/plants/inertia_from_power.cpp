@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 
 #include "examples/sensorless_motor/equilibrium.hpp"
 #include "tests/plants/changed_model.hpp"

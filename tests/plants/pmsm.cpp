@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "generated/pmsm_electrical/pmsm_electrical.hpp"
 #include "tests/plants/estimates.hpp"
