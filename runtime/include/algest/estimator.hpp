@@ -4,6 +4,9 @@
 // One producer calls push (an interrupt, say), one consumer calls estimate (the background). The consumer copies what it
 // needs under a sequence counter, and reads window samples that the producer does not touch for spare_samples more pushes.
 // Copies that a push has spoilt are thrown away; C++ still calls such reads a data race, and ThreadSanitizer reports them.
+//
+// What solves is always inlined into the member of the class that calls it: there the blueprint is a constant, so that a compiler leaves out every
+// solver but the one that is asked for. As functions they would all be linked, three quarters of an estimator's code.
 #pragma once
 #include <cstdint>
 
@@ -304,7 +307,7 @@ inline bool overtaken(const Blueprint<S>& blueprint, Memory<S> memory, const Pro
 
 /// [P|Q] of the newest instant, whitened or normalised where that is asked for; false if it cannot be.
 template <class S>
-inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, const EstimateScratch<S>& at) noexcept {
+[[gnu::always_inline]] inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, const EstimateScratch<S>& at) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     if (blueprint.rows_published) {
         const S* const slot = memory.published + then.slot * slot_scalars(blueprint);
@@ -329,7 +332,7 @@ inline bool newest_rows(const Blueprint<S>& blueprint, Memory<S> memory, const P
 /// Covariance and, unless nullptr, bias of `lumped`, which was solved at `then`. scratch: uncertainty_scratch; its first part as the solve left
 /// it. False where the rows that were solved are not regular.
 template <class S>
-inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* covariance,
+[[gnu::always_inline]] inline bool propagate(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* covariance,
                       S* bias) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const int n = rows.unknowns;
@@ -415,15 +418,18 @@ inline bool certain_enough(const Blueprint<S>& blueprint, const S* covariance, c
     return true;
 }
 
-/// estimate, and what it copied of the producer's progress.
+/// estimate, and what it copied of the producer's progress. plain: without ratio filter, deviation limit and perturbation.
 template <class S>
-inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, Progress& then) noexcept {
+[[gnu::always_inline]] inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, Progress& then, bool plain) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const S none = std::numeric_limits<S>::infinity();
+    const bool filters = !plain && blueprint.ratio.used;
+    const bool limited = !plain && blueprint.deviation_limit > S(0);
+    const bool perturbed = !plain && blueprint.perturbation.rows > 0;
     if (!copy_progress(*memory.progress, then)) return {false, Status::filling, none};
     const bool waits = then.rejected != 0U || then.filled < blueprint.needed() || (blueprint.solve != Solve::square && then.absorbed == 0U);
     if (waits) {
-        if (blueprint.ratio.used) restart_ratio(memory.ratio);
+        if (filters) restart_ratio(memory.ratio);
         return {true, then.rejected != 0U ? Status::rejected : Status::filling, none};
     }
 
@@ -454,18 +460,17 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
         if (margin && blueprint.solve == Solve::least_squares) beyond_noise = above_noise(at.sums, n, blueprint.margin_over_noise, at.noise, square_of_noise);
     }
     bool good = solved.regular && solved.condition <= blueprint.condition_limit && beyond_noise;
-    if (blueprint.ratio.used) {   // what solve_gram leaves in its scratch: L and D, then the scales
+    if (filters) {   // what solve_gram leaves in its scratch: L and D, then the scales
         if (!good) filter_nothing(blueprint.ratio, memory.ratio, n);
         good = good && filter_ratio(blueprint.ratio, memory.ratio, at.work, n + 1, at.work + n * n, n, lumped);
     }
-    if (good && blueprint.deviation_limit > S(0)) {
+    if (good && limited) {
         S* const covariance = scratch + uncertainty_scratch(rows.rows, n, blueprint.solve == Solve::robust ? blueprint.solve_instants : 0);
         good = propagate(blueprint, memory, then, scratch, lumped, covariance, static_cast<S*>(nullptr)) &&
                certain_enough(blueprint, covariance, lumped);
     }
-    if (good && blueprint.perturbation.rows > 0) perturbation_of(blueprint, memory, then, at.matrix, lumped, lumped + n);
-    const bool reads_windows = blueprint.deviation_limit > S(0) || blueprint.perturbation.rows > 0;
-    if (reads_windows && overtaken(blueprint, memory, then)) return {false, Status::filling, none};
+    if (good && perturbed) perturbation_of(blueprint, memory, then, at.matrix, lumped, lumped + n);
+    if ((limited || perturbed) && overtaken(blueprint, memory, then)) return {false, Status::filling, none};
     return {true, good ? Status::ok : Status::singular, solved.condition};
 }
 
@@ -477,9 +482,9 @@ inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S*
 /// Cost: square: all dot products and one solve; else one solve; a perturbation's dot products; whitened rows: residual_factor; a deviation
 /// limit: that of uncertainty. With a ratio filter call it once per push. Never fails, fixed loops.
 template <class S>
-inline Latest<S> estimate(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped) noexcept {
+[[gnu::always_inline]] inline Latest<S> estimate(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped) noexcept {
     Progress then;
-    const Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then);
+    const Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, false);
     if (latest.current && latest.status == Status::ok) {
         for (int u = 0; u < blueprint.whiten_at.size; ++u) memory.whitened_at[u] = lumped[u];
     }
@@ -490,15 +495,11 @@ inline Latest<S> estimate(const Blueprint<S>& blueprint, Memory<S> memory, S* sc
 /// covariance (packed upper triangle) and bias (unknowns). Needs declared noise; square and robust. Written only with status ok.
 /// scratch: uncertainty_scratch. Cost: propagate_noise, and the rows of up to 32 instants. Never fails, fixed loops.
 template <class S>
-inline Latest<S> uncertainty(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, S* covariance, S* bias) noexcept {
-    Blueprint<S> plain = blueprint;
-    plain.ratio.used = false;
-    plain.deviation_limit = S(0);
-    plain.perturbation.rows = 0;
+[[gnu::always_inline]] inline Latest<S> uncertainty(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, S* covariance, S* bias) noexcept {
     Progress then;
-    Latest<S> latest = detail::estimate_at(plain, memory, scratch, lumped, then);
+    Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, true);
     if (!latest.current || latest.status != Status::ok) return latest;
-    if (!detail::propagate(plain, memory, then, scratch, lumped, covariance, bias)) latest.status = Status::singular;
+    if (!detail::propagate(blueprint, memory, then, scratch, lumped, covariance, bias)) latest.status = Status::singular;
     if (detail::pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, std::numeric_limits<S>::infinity()};
     return latest;
 }
