@@ -187,7 +187,7 @@ class RealRecordings(unittest.TestCase):
         self.assertGreater(output["nrmse_before"], 1)                             # worse than no model
 
     def test_hysteresis_of_a_damper(self):
-        """Its model gives the force that a sensor shows; nothing moves but what the damper remembers. Least squares on the whole file: R^2 0.89 viscous, 0.98 with dry friction."""
+        """Its model gives the force that a sensor shows; nothing moves but what the damper remembers. Least squares on the whole file: R^2 0.89 viscous, 0.95 with dry friction."""
         found, output = self.named_first("damper, viscous only", "mr_damper.toml", "mr_damper.csv", "hysteresis")
         source = RECORDINGS / "mr_damper.csv"
         v, force = column(source, "velocity_diff"), column(source, "force")
