@@ -10,6 +10,7 @@
 #include "lab/outputs.hpp"
 #include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
+#include "lab/turned.hpp"
 
 namespace algest::lab {
 
@@ -49,19 +50,6 @@ int sign_of_derivative(const formula::Formula& f, int order) {
         }
         default: return 0;
     }
-}
-
-/// A sum of terms with every sign turned.
-std::string with_other_sign(const std::string& sum) {
-    std::string out = sum[0] == '-' || sum[0] == '+' ? sum : "+" + sum;
-    int depth = 0;
-    for (std::size_t at = 0; at < out.size(); ++at) {
-        if (out[at] == '(') ++depth;
-        if (out[at] == ')') --depth;
-        const bool joins = at == 0 || (at >= 2 && out[at - 1] == ' ' && out[at + 1] == ' ');
-        if (depth == 0 && joins && (out[at] == '-' || out[at] == '+')) out[at] = out[at] == '-' ? '+' : '-';
-    }
-    return out;
 }
 
 /// To six digits, and not below the bound that stands beside it.
@@ -149,7 +137,7 @@ public:
         const formula::Formula& leading_side = leading_left ? e.sides.left : e.sides.right;
         // Beside the driving terms: across from the leading derivative, or next to it where it stands among them with a minus.
         const bool across = sign_of_derivative(leading_side, highest_order(leading_side)) >= 0;
-        std::string term = output_of(model_, e) < 0 ? written : with_other_sign(written);   // F = c*v says 0 = F - c*v: what resists grows F
+        std::string term = output_of(model_, e) < 0 ? written : turned(written);   // F = c*v says 0 = F - c*v: what resists grows F
         if (term[0] == '-' || term[0] == '+') term = term.substr(0, 1) + " " + term.substr(term[1] == ' ' ? 2 : 1);
         else term = "+ " + term;
         std::size_t at = offset_of(text_, e.place(static_cast<int>(leading_left == across ? e.ode.size() : e.ode.find('='))));

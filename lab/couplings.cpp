@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "generator/dimension.hpp"
 #include "lab/equation_places.hpp"
 #include "lab/roles.hpp"
+#include "lab/turned.hpp"
 
 namespace algest::lab {
 
@@ -39,6 +41,13 @@ bool are_coupled(const model::Model& model, std::size_t one, std::size_t other, 
     return false;
 }
 
+/// Its terms are forces or torques: one that was divided by its inertia, or written in amperes, knows what acts on the body by a factor of its own,
+/// and one parameter does not say the same in two of them.
+bool balances_forces(const model::Model& model, const model::Equation& e) {
+    const units::Unit unit = model::unit_of_equation(model, e);
+    return fits(unit, "N") || fits(unit, "N.m");
+}
+
 /// Parentheses around a placeholder that brings its own go.
 std::string without_double_parentheses(std::string term, const std::map<std::string, std::string>& roles) {
     for (const auto& [role, formula] : roles) {
@@ -50,25 +59,13 @@ std::string without_double_parentheses(std::string term, const std::map<std::str
 
 }  // namespace
 
-std::string turned(std::string sum) {
-    int depth = 0;
-    char before = ' ';   // the last character that is no space
-    for (char& c : sum) {
-        if (c == '(') ++depth;
-        if (c == ')') --depth;
-        const bool begins_a_term = depth == 0 && (c == '+' || c == '-') && before != '*' && before != '/' && before != '^';
-        if (c != ' ') before = c;
-        if (begins_a_term) c = c == '+' ? '-' : '+';
-    }
-    return sum;
-}
-
 std::vector<Binding> bindings_between_bodies(const Effect& effect, const model::Model& model, const std::vector<bool>& measured, const std::vector<std::optional<std::string>>& unit_of) {
     std::vector<Binding> out;
     if (!hangs_on_motion(effect)) return out;
     for (std::size_t one = 0; one < model.equations.size(); ++one) {
+        if (!unit_of[one] || !balances_forces(model, model.equations[one])) continue;
         for (std::size_t other = one + 1; other < model.equations.size(); ++other) {
-            if (!unit_of[one] || unit_of[one] != unit_of[other] || !are_coupled(model, one, other, measured)) continue;
+            if (unit_of[one] != unit_of[other] || !balances_forces(model, model.equations[other]) || !are_coupled(model, one, other, measured)) continue;
             Binding b{&effect, {one, other}, {}, {}, {}, *unit_of[one]};
             std::map<std::string, std::string> roles;
             for (const auto& [role, kind] : effect.roles) {

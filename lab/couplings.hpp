@@ -11,11 +11,9 @@
 namespace algest::lab {
 
 /// Bindings of an added term that hangs on a motion alone to every two bodies whose equations share the difference of their positions or speeds:
-/// the term of that difference in the first, its opposite in the second. unit_of: as `bindings` has it, nullopt where the effect may not enter.
+/// the term of that difference in the first, its opposite in the second. Both have to be balances of forces or
+/// torques as they are written. unit_of: as `bindings` has it, nullopt where the effect may not enter.
 std::vector<Binding> bindings_between_bodies(const Effect& effect, const model::Model& model, const std::vector<bool>& measured,
                                              const std::vector<std::optional<std::string>>& unit_of);
-
-/// A sum with the sign of each of its terms turned: "-a*(b - c) + d" becomes "+a*(b - c) - d".
-std::string turned(std::string sum);
 
 }  // namespace algest::lab

@@ -9,8 +9,8 @@
 
 namespace algest::lab {
 
-/// The strongest further value of the scan of an amendment that `v` holds, where what that takes from the rows of the training stretch stands above
-/// what its neighbours take, by more than chance in one search of a hundred; its strength is the ratio. Nothing for an effect whose scan does not go in steps.
+/// Of an amendment that `v` holds, the further value of its scan that stands highest above its neighbours: what it takes from the fitted rows is more than
+/// chance makes in one search of a hundred. Nothing for an effect whose scan does not go in steps, or that has not two parameters.
 std::optional<Candidate> further_order(const Workbench& bench, const Variant& v, const Amendment& held, const Effect& effect);
 
 }  // namespace algest::lab

@@ -8,6 +8,7 @@
 #include "lab/golden_section.hpp"
 #include "lab/largest_size.hpp"
 #include "lab/noise.hpp"
+#include "lab/scan_values.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
@@ -24,29 +25,10 @@ constexpr double probe = 0.02;                    ///< of what drives an equatio
 constexpr double unsized_probe = 1e-3;            ///< where nothing tells its size, to begin with
 constexpr std::size_t lines_that_are_tried = 2;   ///< of each spectrum
 constexpr double one_line = 4;                    ///< widths, within which two lines are one
-constexpr double price_of_a_scan = 1.5;   ///< a scan finds something in any noise
 constexpr double least_to_sharpen = 10;           ///< F statistic from which on a scanned value is worth placing between those of the scan
 constexpr std::size_t most_scanned_by_run = 16;
 constexpr double small_change = 0.02;             ///< of the outputs, that a probe of a parameter makes
 constexpr int most_probes = 4;
-
-/// unit: what the range is counted in.
-std::vector<double> scan_values(const EffectScan& scan, double unit) {
-    std::vector<double> out;
-    if (scan.factor > 0) {
-        for (double value = scan.from; value <= scan.to * (1 + 1e-9); value *= scan.factor) out.push_back(value * unit);
-        return out;
-    }
-    const int steps = static_cast<int>((scan.to - scan.from) / scan.step + 1e-9);
-    for (int k = 0; k <= steps; ++k) out.push_back((scan.from + k * scan.step) * unit);
-    return out;
-}
-
-/// Equations are found again by name: amendments leave their order alone, dropped kinematics do not.
-std::size_t index_of(const model::Model& model, const std::string& equation) {
-    for (std::size_t e = 0; e < model.equations.size(); ++e) if (model.equations[e].name == equation) return e;
-    return 0;
-}
 
 /// The weak residuals of the model as it is, by equation and window length: every candidate is compared with them.
 class Screen {
@@ -152,7 +134,7 @@ private:
             for (const std::size_t e : binding.equations) {
                 const std::string& where = base_.whole.equations[e].name;
                 const auto& before = without(where, intervals);
-                const auto with = weak_form(*model, with_time_, index_of(*model, where), intervals);
+                const auto with = weak_form(*model, with_time_, equation_index(*model, where), intervals);
                 if (adds_terms && with && before && with->coefficients.size() == before->terms && known_alone(*with, *model)) {
                     out.strength = -1;   // the same product with a value that is declared known: that value is in doubt, not an effect missing
                     return out;
@@ -166,8 +148,7 @@ private:
                     least = -1;
                     break;
                 }
-                const double freedom = std::max(after.windows - after.unknowns, 1);
-                const double strength = (before->fit.residual - after.residual) / (after.residual / freedom) / std::max(after.unknowns - before->fit.unknowns, 1);
+                const double strength = f_statistic(before->fit, after);
                 if (strength < least) {
                     least = strength;
                     parameters = after.parameters;
@@ -198,7 +179,7 @@ private:
     /// The strongest lines of the spectra of an equation's residual, rad/s, by windows of every length: short ones drown slow waves in noise,
     /// long ones average fast ones away.
     std::vector<double> lines(const Binding& binding) const {
-        const std::size_t e = index_of(base_.model, base_.whole.equations[binding.equations[0]].name);
+        const std::size_t e = equation_index(base_.model, base_.whole.equations[binding.equations[0]].name);
         std::vector<double> out;
         for (const int intervals : weak_intervals(bench_.parts().fitted)) {
             const auto form = weak_form(base_.model, base_.bench, e, bench_.parts().fitted, intervals);
@@ -262,7 +243,7 @@ private:
         const auto known = before_.find(key);
         if (known != before_.end()) return known->second;
         std::optional<Before> out;
-        const auto form = weak_form(base_.model, bench_.stretches(base_, &Parts::fitted), index_of(base_.model, equation), intervals);
+        const auto form = weak_form(base_.model, bench_.stretches(base_, &Parts::fitted), equation_index(base_.model, equation), intervals);
         if (form) {
             const WeakFit fit = weak_fit(*form, base_.fit.parameters);
             out = Before{fit, form->coefficients.size(), input_size(*form, fit.parameters)};
@@ -420,7 +401,7 @@ private:
 
     /// The value of a parameter at which its term is a small part of what drives the equation; 0: rows do not tell.
     double row_probe(const Variant& v, const std::vector<double>& parameters, const NewName& n, const Binding& binding) const {
-        const std::size_t e = index_of(v.model, base_.whole.equations[binding.equations[0]].name);
+        const std::size_t e = equation_index(v.model, base_.whole.equations[binding.equations[0]].name);
         const auto form = weak_form(v.model, v.bench, e, bench_.parts().fitted, weak_intervals(bench_.parts().fitted).front());
         if (!form) return 0;
         std::vector<double> one = parameters;

@@ -8,11 +8,13 @@
 
 namespace algest::lab {
 
+constexpr double price_of_a_scan = 1.5;   ///< that the F statistic of the best of many scanned values is divided by: a scan finds something in any noise
+
 /// An effect in a place, with the value of its scan that fits best.
 struct Candidate {
     Binding binding;
     double scan;
-    double strength;              ///< F statistic of the reduction of the weak residual; 0 where the weak form cannot see it
+    double strength;              ///< F statistic of the reduction of the weak residual, over the price of a scan; 0 where the weak form cannot see it
     double share;                 ///< of the free run's squared error on the fitted rows that it would take, to first order
     std::vector<double> scans;    ///< values that only a free run can weigh; empty: none
     std::vector<double> start;    ///< parameters of the amended model, by whichever of the two speaks louder

@@ -30,10 +30,11 @@ constexpr double needed_gain = 0.95;            ///< an effect must bring the va
 constexpr double needed_gain_of_further = 0.8;  ///< the same of a further effect where noise is guessed: nothing says what noise would leave
 constexpr double needed_significance = 2.5;     ///< standard errors of the difference over blocks (16: a t of 2.5 is 1 in 40)
 constexpr double rows_of_no_chance = 50;        ///< F statistic that noise of the process does not reach
-constexpr double rows_of_chance = 8;            ///< F statistic that noise reaches in one search of ten: of two parameters, 119 orders, 10 places
-constexpr double gain_against_rows = 40;        ///< that it takes where rows see an effect, and find it no more than chance
+constexpr double rows_of_chance = 8;            ///< strength that noise hardly reaches. Of a scan it is an F of 12: two parameters, 119 orders and 10 places
+                                                ///< reach that in 1190 exp(-12), one search of 140; of one parameter without a scan in 5 of 1000 places
+constexpr double gain_against_rows = 40;        ///< that it takes where rows see an effect, and find it no more than chance: four times the bar, chosen
 constexpr double gain_by_chance = 10;           ///< that the best of 50 candidates has, one search in three: 2 ln(50 * 3)
-constexpr int most_orders = 4;                  ///< of one effect, beside the first
+constexpr int most_orders = 4;                  ///< of one effect, beside the first: chosen, for each costs a fit
 constexpr double alike = 1.05;                  ///< validation errors within this ratio are not told apart,
 constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
 constexpr double clearly_worse = 1.3;           ///< ... unless they are beyond this ratio
@@ -177,7 +178,7 @@ std::vector<std::size_t> tell_rivals(Selection& out, const Precedence& precedenc
     return rows;
 }
 
-/// Further orders of what was chosen, the strongest first: each has to stand out in the rows and to leave the validation error no larger.
+/// Further orders of what was chosen, the strongest first: each has to stand out in the rows and to make the validation error smaller.
 void add_further_orders(Workbench& bench, Selection& out, const std::vector<Effect>& effects) {
     const std::vector<Amendment> chosen = out.best.amendments;
     for (const Amendment& a : chosen) {
@@ -283,7 +284,6 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         const double enough = out.best.amendments.back().names.size() > 1 ? on_the_floor : at_the_floor;
         if (out.best.score.gap() <= enough || bench.used_up()) break;
     }
-    out.cut_short = bench.used_up();
     const std::size_t before = out.best.amendments.size();
     out.best = pruned(bench, out.best, nominal, gain_of(2));
     const auto kept = [&](std::size_t r) {
@@ -293,6 +293,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
     // What is left without the effects that are not missed was compared with others of its size while they were beside it.
     if (out.best.amendments.size() < before) rivals = tell_rivals(out, precedence, {&out.best, out.evidence[chosen.back()].strength}, no_larger(all, out.best));
     if (out.best.score.gap() > at_the_floor) add_further_orders(bench, out, effects);
+    out.cut_short = bench.cut_short();
     for (const std::size_t r : chosen) out.evidence[r].chosen = true;
     for (const std::size_t r : rivals) out.evidence[r].rival = true;
     return out;

@@ -18,7 +18,7 @@ struct Selection {
     Variant best;                       ///< the nominal model itself where nothing was worth adding
     std::vector<Variant> rivals;        ///< that the validation rows do not tell from it
     std::vector<Evidence> evidence;
-    bool cut_short;                     ///< the effort of the bench was used up before every candidate was tried
+    bool cut_short;                     ///< the effort of the bench, or a candidate's share of it, was used up before everything was tried
     std::vector<std::string> as_well = {};   ///< doubts: what explains as much as what was chosen, and is the less plain account
 };
 

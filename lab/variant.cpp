@@ -21,7 +21,7 @@ constexpr std::size_t least_test = 10;
 constexpr double search_tolerance = 1e-6;       ///< of the runs of a search: far below any sensor's noise
 constexpr double finest_part = 1e-4;
 constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 20 s
-constexpr double share_of_a_candidate = 0.15;
+constexpr double share_of_a_candidate = 0.15;   ///< chosen: a search survives six that are stiff
 constexpr double effort_of_a_last_fit = 2e9;
 constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
 constexpr int search_iterations = 12;
@@ -269,11 +269,19 @@ std::vector<BenchRows> Workbench::stretches(const Variant& v, Rows Parts::*part)
     return out;
 }
 
-Workbench::OneOfMany::OneOfMany(Workbench& bench) : effort_(bench.effort_), limit_(bench.effort_.limit) {
-    effort_.limit = std::min(limit_, effort_.spent + share_of_a_candidate * effort_of_a_search);
+Workbench::OneOfMany::OneOfMany(Workbench& bench) : bench_(bench), limit_(bench.effort_.limit) {
+    bench.effort_.limit = std::min(limit_, bench.effort_.spent + share_of_a_candidate * effort_of_a_search);
 }
 
-void Workbench::begin_search() { effort_.limit = effort_.spent + effort_of_a_search; }
+Workbench::OneOfMany::~OneOfMany() {
+    bench_.cut_ = bench_.cut_ || bench_.used_up();
+    bench_.effort_.limit = limit_;
+}
+
+void Workbench::begin_search() {
+    effort_.limit = effort_.spent + effort_of_a_search;
+    cut_ = false;
+}
 
 void Workbench::refine(Variant& v) {
     effort_.limit = effort_.spent + effort_of_a_last_fit;
@@ -385,6 +393,11 @@ bool Workbench::drifts(const Variant& fitted, std::size_t recording) const {
         if (!(left < lasting)) return true;   // NaN: it diverged
     }
     return false;
+}
+
+std::size_t equation_index(const model::Model& model, const std::string& name) {
+    for (std::size_t e = 0; e < model.equations.size(); ++e) if (model.equations[e].name == name) return e;
+    return 0;
 }
 
 std::vector<double> carried_initial(const Variant& v, const Variant& from, std::size_t recording) {

@@ -89,19 +89,22 @@ public:
     /// Runs and fits of a search share an effort, counted from here; once it is used up what stands is the answer.
     void begin_search();
 
-    /// While it lives no more than a share of the search's effort is spent: one candidate that is stiff must not cost the others their turn.
+    /// `const OneOfMany share(bench);` while it lives no more than a share of the search's effort is spent: one candidate that is stiff must
+    /// not cost the others their turn. The bench remembers a candidate that came to the end of its share: what it scored says little.
     class OneOfMany {
     public:
         explicit OneOfMany(Workbench& bench);
-        ~OneOfMany() { effort_.limit = limit_; }
+        ~OneOfMany();
         OneOfMany(const OneOfMany&) = delete;
         OneOfMany& operator=(const OneOfMany&) = delete;
 
     private:
-        Effort& effort_;
+        Workbench& bench_;
         double limit_;
     };
     bool used_up() const { return effort_.used_up(); }
+    /// The search, or a candidate of it, came to the end of its effort.
+    bool cut_short() const { return cut_ || used_up(); }
 
     /// Free run of a fitted variant over a whole recording; the rows before the training stretch are a run of their own.
     FreeRun run(const Variant& v, double tolerance, std::size_t recording = 0) const;
@@ -152,7 +155,11 @@ private:
     std::map<std::string, std::string> unwritten_;
     Yardstick yardstick_ = Yardstick::free_run;
     Effort effort_;
+    bool cut_ = false;   ///< some candidate came to the end of its share
 };
+
+/// Equations are found again by name: amendments leave their order alone, dropped kinematics do not. The first where there is none.
+std::size_t equation_index(const model::Model& model, const std::string& name);
 
 /// Initial values of v's states in a recording as another variant's fit has them; its own for those that the other lacks.
 std::vector<double> carried_initial(const Variant& v, const Variant& from, std::size_t recording = 0);

@@ -308,6 +308,11 @@ Eigen::VectorXd weak_residual(const WeakForm& form, const std::vector<double>& p
     return form.columns * c;
 }
 
+double f_statistic(const WeakFit& before, const WeakFit& after) {
+    const double freedom = std::max(after.windows - after.unknowns, 1);
+    return (before.residual - after.residual) / (after.residual / freedom) / std::max(after.unknowns - before.unknowns, 1);
+}
+
 WeakFit weak_fit(const WeakForm& form, const std::vector<double>& start) {
     std::vector<std::size_t> free;
     for (std::size_t p = 0; p < start.size(); ++p) if (form.used[p] && (form.driven || !form.leading[p])) free.push_back(p);

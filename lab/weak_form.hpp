@@ -54,6 +54,9 @@ struct WeakFit {
 };
 WeakFit weak_fit(const WeakForm& form, const std::vector<double>& start);
 
+/// F statistic of the unknowns that `after` has beyond `before`, of the same rows: about 1 where they are noise.
+double f_statistic(const WeakFit& before, const WeakFit& after);
+
 /// Parameters with standard deviations; infinite for those that no row sees.
 struct WeakEstimate {
     std::vector<double> parameters;

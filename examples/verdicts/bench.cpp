@@ -18,7 +18,11 @@ int main(int count, char** words) {
     if (out == nullptr) return std::fprintf(stderr, "bench: cannot write %s\n", words[2]), 2;
     std::mt19937 dice(7);
     const auto between = [&](double low, double high) { return low + (high - low) * (static_cast<double>(dice()) / 4294967296.0); };
-    const auto normal = [&] { return std::sqrt(-2 * std::log(1 - between(0, 1))) * std::cos(2 * M_PI * between(0, 1)); };
+    const auto normal = [&] {
+        const double radius = std::sqrt(-2 * std::log(1 - between(0, 1)));
+        const double angle = 2 * M_PI * between(0, 1);
+        return radius * std::cos(angle);
+    };
 
     constexpr double R = 1.0, L = 0.002, K = 0.05, J = 2.5e-4, b = 2e-4;   // ohm, H, N.m/A, kg.m^2, N.m.s/rad
     const double friction = is("named") || is("ambiguous") ? 0.012 : 0;      // N.m

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "lab/amend.hpp"
-#include "lab/couplings.hpp"
 #include "lab/equation_places.hpp"
+#include "lab/turned.hpp"
 
 namespace {
 
@@ -186,11 +186,36 @@ ode = "J2*der(w2) = d*(w1 - w2)"
     std::string apart = car;
     apart.replace(apart.find("ks*(xs - xu) - kt"), 17, "ks*(xu - r) - kt");
     CHECK(amended_by("coulomb_friction", apart).size() == 2);
+    // Divided by their masses the two have one friction F as F/ms and as F/mu: one parameter cannot be both.
+    const std::string divided = R"toml(name = "m"
+[signals]
+r = { unit = "m" }
+xs = { unit = "m", initial = 0 }
+xu = { unit = "m", initial = 0 }
+[parameters]
+a = { initial = 54.5, unit = "1/s^2" }
+b = { initial = 428.6, unit = "1/s^2" }
+c = { initial = 4171, unit = "1/s^2" }
+[[equation]]
+ode = "der(xs,2) = -a*(xs - xu)"
+[[equation]]
+ode = "der(xu,2) = b*(xs - xu) - c*(xu - r)"
+)toml";
+    const auto alone = amended_by("coulomb_friction", divided);
+    REQUIRE(alone.size() == 2);
+    CHECK(has(alone[0], "ode = \"der(xu,2) = b*(xs - xu) - c*(xu - r)\"\n"));
+    CHECK(has(alone[1], "ode = \"der(xs,2) = -a*(xs - xu)\"\n"));
 }
 
 TEST_CASE("the signs of a sum are turned, not those inside of its terms") {
     CHECK(lab::turned("-a*(b - c) + d") == "+a*(b - c) - d");
     CHECK(lab::turned("+k*x^-2 - e*-y") == "-k*x^-2 + e*-y");
+    CHECK(lab::turned("a*b - c") == "-a*b + c");        // no sign is a plus
+    CHECK(lab::turned("-a+b") == "+a-b");               // without blanks
+    CHECK(lab::turned("-a*1e-3*b + 2E+3*c") == "+a*1e-3*b - 2E+3*c");   // an exponent's sign is the number's
+    CHECK(lab::turned("- -a*b") == "+ -a*b");           // of two signs one
+    CHECK(lab::turned("a - -b") == "-a + -b");
+    CHECK(lab::turned("-T_1e*sgn({speed}) +c2e-d") == "+T_1e*sgn({speed}) -c2e+d");   // a name may end like an exponent
 }
 
 TEST_CASE("a constant that is let go keeps its comment, its unit and its digits among the parameters") {

@@ -22,8 +22,8 @@ struct Workplace {
 
     /// d: of the row and of x there; sensor: standard deviation of the noise of x; declared: the line of x in the model file.
     explicit Workplace(const std::function<double(std::size_t, double)>& d, double sensor = 1e-3, const std::string& declared = "noise = 1e-3, initial = 0",
-                       const std::function<double(double)>& reading = [](double x) { return x; }) {
-        std::mt19937 random(3);
+                       const std::function<double(double)>& reading = [](double x) { return x; }, unsigned seed = 3) {
+        std::mt19937 random(seed);
         std::normal_distribution<double> noise;
         std::string csv = "t [s],u [V],x [m]\n";
         double u = 0, x = 0;

@@ -8,7 +8,8 @@ namespace algest::gap {
 
 namespace {
 
-const std::vector<std::string> unheld = {"bouc_wen_hysteresis", "cubic_damping", "hard_stop", "radiation"};
+/// Hidden alone, never in a pair: what is over in an instant or has a memory, and what no file of the library says.
+const std::vector<std::string> always_alone = {"bouc_wen_hysteresis", "cubic_damping", "hard_stop", "radiation"};
 
 /// Effects that only a model without that term can miss.
 bool needs_wish(const std::string& name) { return name == "viscous_friction" || name == "back_emf"; }
@@ -51,7 +52,7 @@ std::vector<std::string> hidings(const std::string& family, bool structural) {
     if (mechanical) out.push_back("none_process");
     out.push_back("none_coloured");
     std::vector<std::string> names = term_effects();
-    names.insert(names.end(), unheld.begin(), unheld.end());
+    names.insert(names.end(), always_alone.begin(), always_alone.end());
     for (const std::string& name : names) {
         if (needs_wish(name) && family == "mb") continue;  // its model has no such term to leave out
         const System system = build(family, {name, false}, random);
@@ -64,7 +65,7 @@ std::vector<std::string> hidings(const std::string& family, bool structural) {
     std::vector<std::string> plainly;
     for (const std::string& s : singles) {
         const std::string name = parts(s, '@')[0];
-        if (!needs_wish(name) && name != "gravity_sin" && std::count(unheld.begin(), unheld.end(), name) == 0)
+        if (!needs_wish(name) && name != "gravity_sin" && std::count(always_alone.begin(), always_alone.end(), name) == 0)
             plainly.push_back(s);
     }
     for (std::size_t i = 0; i + 1 < plainly.size(); i += 2) {
