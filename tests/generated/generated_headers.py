@@ -28,10 +28,13 @@ def folders(float_folder):
 
 
 def of(model, folder):
-    """Compiler options that say which model a program of programs/ is about, and about what its inputs move by how much."""
-    # The servo has to turn, and to turn back; the PMSM's currents have to exceed their noise; others may divide by an air gap.
-    middle, size = {"servo": (0.0, 1.0), "pmsm_electrical": (2.0, 1.0)}.get(model, (2e-3, 1e-3))
-    return [f"-I{folder}", f'-DHEADER="{model}/{model}.hpp"', f"-DMODEL={class_name(model)}", f"-DMIDDLE={middle}", f"-DSIZE={size}"]
+    """Compiler options that say which model a program of programs/ is about, about what its inputs move by how much, and how many samples they are held."""
+    # The servo has to turn, and to turn back; the PMSM's currents have to exceed their noise; operating points have to be steady for two of their
+    # blocks of 200, and differ by more than their tolerances; others may divide by an air gap.
+    operating_points = (5.0, 4.0, 600)
+    middle, size, held = {"servo": (0.0, 1.0, 1), "pmsm_electrical": (2.0, 1.0, 1), "pmsm_sensorless": operating_points,
+                          "pmsm_sensorless_voltage": operating_points}.get(model, (2e-3, 1e-3, 1))
+    return [f"-I{folder}", f'-DHEADER="{model}/{model}.hpp"', f"-DMODEL={class_name(model)}", f"-DMIDDLE={middle}", f"-DSIZE={size}", f"-DHELD={held}"]
 
 
 def in_parallel(jobs):

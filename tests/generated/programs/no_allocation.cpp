@@ -94,8 +94,8 @@ Class::Sample sample(int k, int kind) {
     Class::Sample out;
     Scalar values[inputs];
     for (int i = 0; i < inputs; ++i) {
-        const Scalar phase = (Scalar(0.011) + Scalar(0.0073) * static_cast<Scalar>(i)) * static_cast<Scalar>(k);
-        values[i] = Scalar(MIDDLE) + Scalar(SIZE) * (std::sin(phase) + Scalar(0.3) * std::cos(Scalar(2.9) * phase) + Scalar(0.05) * rough());
+        const Scalar phase = (Scalar(0.011) + Scalar(0.0073) * static_cast<Scalar>(i)) * static_cast<Scalar>(k / HELD * HELD);
+        values[i] = Scalar(MIDDLE) + Scalar(SIZE) * (std::sin(phase) + Scalar(0.3) * std::cos(Scalar(2.9) * phase) + (HELD > 1 ? Scalar(0) : Scalar(0.05) * rough()));
         if (kind == 1) values[i] = Scalar(0);
         if (kind == 2) values[i] = rough() < Scalar(0.5) ? std::numeric_limits<Scalar>::max() : std::numeric_limits<Scalar>::denorm_min();
         if (kind == 3 && rough() < Scalar(0.1)) values[i] = std::numeric_limits<Scalar>::quiet_NaN();
