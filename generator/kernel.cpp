@@ -136,6 +136,12 @@ Coefficients coefficients(const std::vector<std::string>& texts) {
     return out;
 }
 
+Rational moment(const Coefficients& kernel, int power) {
+    Rational out = 0;
+    for (std::size_t k = 0; k < kernel.size(); ++k) out = out + kernel[k] / (static_cast<int>(k) + power + 1);
+    return out;
+}
+
 Coefficients antiderivative(const Coefficients& p) {
     Coefficients out = {0};
     for (std::size_t k = 0; k < p.size(); ++k) out.push_back(p[k] / static_cast<int>(k + 1));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "generator/annihilator.hpp"
+#include "generator/kernel.hpp"
 
 namespace algest::perturbation {
 
@@ -11,24 +12,17 @@ namespace {
 
 using exact::Rational;
 
-/// The integral over [0,1] of kernel(sigma) sigma^power.
-Rational moment(const std::vector<Rational>& kernel, int power) {
-    Rational out = 0;
-    for (std::size_t k = 0; k < kernel.size(); ++k) out = out + kernel[k] / (static_cast<int>(k) + power + 1);
-    return out;
-}
-
 /// Row i (from 1) of the inverse of A, A(p, i) = integral of the kernel of row p, derivative 0, times sigma^(i-1)/(i-1)!. By elimination on
 /// [A' | e_i]: the solution x has x' A = e_i'. A is regular: its rows are moments of distinct powers of 1-sigma under one weight.
 std::vector<Rational> combination(int i, int n, int kappa) {
     const std::size_t size = static_cast<std::size_t>(kappa);
     std::vector<std::vector<Rational>> rows(size, std::vector<Rational>(size + 1, 0));
     for (int p = 1; p <= kappa; ++p) {
-        const std::vector<Rational> kernel = annihilator::kernel(0, p, {n, 0});
+        const std::vector<Rational> row = annihilator::kernel(0, p, {n, 0});
         Rational factorial = 1;
         for (int c = 0; c < kappa; ++c) {
             if (c > 0) factorial = factorial * c;
-            rows[static_cast<std::size_t>(c)][static_cast<std::size_t>(p - 1)] = moment(kernel, c) / factorial;
+            rows[static_cast<std::size_t>(c)][static_cast<std::size_t>(p - 1)] = kernel::moment(row, c) / factorial;
         }
     }
     rows[static_cast<std::size_t>(i - 1)][size] = 1;

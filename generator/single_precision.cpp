@@ -23,14 +23,6 @@ Rational value_at(const kernel::Coefficients& kernel, const Rational& sigma) {
     return out;
 }
 
-/// The integral of K sigma^power over [0,1].
-Rational moment(const kernel::Coefficients& kernel, int power) {
-    Rational out = 0;
-    int exponent = power;
-    for (const Rational& c : kernel) out = out + c / ++exponent;
-    return out;
-}
-
 /// What an equation's rows cancel at most, and the unknowns that stand in them.
 struct Rows {
     Rational cancellation = 0;
@@ -63,13 +55,13 @@ std::string parameters_from(const std::set<int>& unknowns, const model::Model& m
 
 }  // namespace
 
-Rational cancellation(const kernel::Coefficients& kernel) {
-    if (std::all_of(kernel.begin(), kernel.end(), [](const Rational& c) { return c == 0; })) return 0;
+Rational cancellation(const kernel::Coefficients& of) {
+    if (std::all_of(of.begin(), of.end(), [](const Rational& c) { return c == 0; })) return 0;
     Rational size = 0;
-    for (int k = 0; k < nodes; ++k) size = size + cln::abs(value_at(kernel, Rational(2 * k + 1) / (2 * nodes)));
+    for (int k = 0; k < nodes; ++k) size = size + cln::abs(value_at(of, Rational(2 * k + 1) / (2 * nodes)));
     int power = 0;
-    while (moment(kernel, power) == 0) ++power;   // ends: a polynomial that every power annihilates is 0
-    return size / nodes / cln::abs(moment(kernel, power));
+    while (kernel::moment(of, power) == 0) ++power;   // ends: a polynomial that every power annihilates is 0
+    return size / nodes / cln::abs(kernel::moment(of, power));
 }
 
 std::vector<std::string> single_precision_notes(const model::Model& model, const lumping::Lumping& lumping, const plan::Plan& plan) {

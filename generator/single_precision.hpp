@@ -14,7 +14,7 @@ namespace algest::generator {
 /// How much larger the numbers are that a kernel takes the difference of than that difference: the integral of |K| over that of K sigma^d, where
 /// sigma^d is the first power that the kernel does not annihilate, the slowest signal that it sees. At least 1; 0 for a kernel of zeros.
 /// Midpoint rule, half a percent off at most for the orders that rows have. Cost: 256 values.
-exact::Rational cancellation(const kernel::Coefficients& kernel);
+exact::Rational cancellation(const kernel::Coefficients& of);
 
 /// A sentence for each equation of a plan in single precision whose rounding may move an estimate by more than 2 percent before its condition
 /// refuses it, with the parameters that the equation determines; none for the others. Rounding moves a solution by about unit roundoff times

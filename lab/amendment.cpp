@@ -9,6 +9,7 @@
 #include "lab/amend.hpp"
 #include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
+#include "lab/whole_word.hpp"
 
 namespace algest::lab {
 
@@ -16,14 +17,7 @@ namespace {
 
 /// Replaces a name where it stands as a whole word.
 void rename(std::string& text, const std::string& from, const std::string& to) {
-    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1)) {
-        const bool starts = at == 0 || !is_word(text[at - 1]);
-        const bool ends = at + from.size() == text.size() || !is_word(text[at + from.size()]);
-        if (!starts || !ends) continue;
-        text.replace(at, from.size(), to);
-        at += to.size() - 1;
-    }
+    for (std::size_t at = find_whole_word(text, from); at != std::string::npos; at = find_whole_word(text, from, at + to.size())) text.replace(at, from.size(), to);
 }
 
 /// Names that are free, each given away once.

@@ -3,12 +3,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <tuple>
 
 #include "generator/blueprint.hpp"
 #include "generator/tape.hpp"
+#include "lab/whole_word.hpp"
 
 namespace algest::lab {
 
@@ -29,16 +29,6 @@ bool is_constant(const plan::Plan& plan, const OperatingPoints& points, std::siz
     const double tolerance = plan.steady->averaged[quantity].tolerance;
     const double uncertain = plan.margin_over_noise > 0.0 && std::isfinite(tolerance) ? std::sqrt(plan.margin_over_noise) * tolerance / 2 : 0.0;
     return high - low <= std::max(uncertain, same * std::max(std::abs(low), std::abs(high))) && (low != 0.0 || high != 0.0);
-}
-
-/// True where a name stands in a formula as a whole.
-bool names(const std::string& formula, const std::string& name) {
-    const auto part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    for (std::size_t at = formula.find(name); at != std::string::npos; at = formula.find(name, at + 1)) {
-        const std::size_t end = at + name.size();
-        if ((at == 0 || !part(formula[at - 1])) && (end == formula.size() || !part(formula[end]))) return true;
-    }
-    return false;
 }
 
 /// Parameters of linear rows in the combinations that the points show no better than noise does, in words; empty: none, or not linear.
@@ -76,7 +66,7 @@ std::string not_above_noise(const plan::Plan& plan, const OperatingPoints& point
     std::string out;
     for (const plan::Parameter& p : plan.parameters) {
         bool takes_part = false;
-        for (std::size_t u = 0; u < open.size(); ++u) takes_part = takes_part || (open[u] && names(plan.lumped[u].meaning, p.name));
+        for (std::size_t u = 0; u < open.size(); ++u) takes_part = takes_part || (open[u] && find_whole_word(plan.lumped[u].meaning, p.name) != std::string::npos);
         if (takes_part) out += (out.empty() ? "" : ", ") + p.name;
     }
     return out;
