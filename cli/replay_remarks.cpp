@@ -66,7 +66,7 @@ std::optional<std::string> what_scatters(const plan::Plan& plan, const lab::Repl
     std::string found;
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
         const auto scatter = lab::scatter_in_deviations(replay, p);
-        if (scatter && *scatter >= lab::more_than_noise) found += fmt::format("{}{} by {:.2g}", found.empty() ? "" : ", ", plan.parameters[p].name, *scatter);
+        if (scatter && *scatter >= lab::more_than_noise) found += fmt::format("{}{} by {:.0f}", found.empty() ? "" : ", ", plan.parameters[p].name, *scatter);
     }
     if (found.empty()) return std::nullopt;
     return fmt::format("estimates scatter over the recording by more than their standard deviations: {}; beside the declared noise they see a parameter that "
