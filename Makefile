@@ -23,7 +23,7 @@ demo: all
 test test-long:
 	@.ci/install core test
 	@$(configure)
-	@cmake --build build
+	@cmake --build build $(if $(filter test-long,$@),--target all benchmarks)
 	@$(ctest) $(if $(filter test,$@),--label-exclude long,$(LONG))
 
 sanitized = cmake --preset sanitized $(CONFIGURE) && cmake --build --preset sanitized --target
