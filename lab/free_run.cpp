@@ -7,16 +7,15 @@
 #include <cmath>
 #include <utility>
 
-#include "lab/bound_tape.hpp"
 #include "lab/input_jumps.hpp"
 #include "lab/linear_motion.hpp"
+#include "lab/motion.hpp"
 #include "lab/past.hpp"
 
 namespace algest::lab {
 
 namespace {
 
-using State = std::vector<double>;
 using Stepper = boost::numeric::odeint::runge_kutta_dopri5<State>;
 
 constexpr int most_steps_in_a_span = 20000;    ///< stiffer than that is a diverged run too,
@@ -28,15 +27,10 @@ enum class Mode { negative, holding, positive };
 class Run {
 public:
     Run(const OdeSystem& system, const std::vector<double>& parameters, const Drive& drive, const RunOptions& options)
-        : system_(system), drive_(drive), options_(options), jumps_(system, parameters, drive.held), inputs_(first_inputs(system, parameters)), equations_(bound(system.residual)),
-          results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
-          mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())),
-          residual_(static_cast<Eigen::Index>(system.moving.size())), highest_(static_cast<Eigen::Index>(system.moving.size())), slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
+        : system_(system), drive_(drive), options_(options), jumps_(system, parameters, drive.held), motion_(system, parameters), modes_(system.relays.size(), Mode::positive),
+          slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
         recorded_ = simulated_signals(system);
         set_delays(parameters);
-        for (const Output& output : system.outputs) outputs_.push_back(bound(output.tape));
-        for (const Law& law : system.laws) laws_.push_back(bound(law.tape));
-        for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
         scale_ = options.scale;
         scale_.resize(system.states.size(), 1.0);
         farthest_ = options.farthest;
@@ -55,11 +49,11 @@ public:
         for (std::size_t k = options_.first; k < end; k += options_.stride) {
             sample_ = k;
             if (k > options_.first) jumps_.at_sample(drive_, k, x);
-            set_state(x);
+            motion_.set_state(x);
             since_ = 0.0;
             set_driven(0.0);
             set_past();
-            const bool finite = apply_outputs_and_laws();
+            const bool finite = motion_.show_and_control();
             if (!finite && out_.samples > 0) break;
             record();
             ++out_.samples;
@@ -71,51 +65,27 @@ public:
             keep_past(x);
             if (progress && k % 1024 == 0) progress(static_cast<double>(k) / static_cast<double>(drive_.samples));
         }
-        if (options_.effort != nullptr) options_.effort->spent += static_cast<double>(evaluations_) * static_cast<double>(system_.residual.operations.size()) + static_cast<double>(leaps_ * 2 * x.size() * x.size());
+        if (options_.effort != nullptr) options_.effort->spent += static_cast<double>(motion_.evaluations()) * static_cast<double>(system_.residual.operations.size()) + static_cast<double>(leaps_ * 2 * x.size() * x.size());
         return std::move(out_);
     }
 
 private:
-    static std::vector<double> first_inputs(const OdeSystem& system, const std::vector<double>& parameters) {
-        std::vector<double> out(static_cast<std::size_t>(system.inputs), 0.0);
-        std::copy(parameters.begin(), parameters.end(), out.begin() + system.parameter_input);
-        return out;
-    }
-
-    BoundTape bound(const plan::Tape& tape) const {
-        std::vector<bool> fixed(inputs_.size(), false);
-        std::fill(fixed.begin() + system_.parameter_input, fixed.begin() + system_.delay_input, true);   // those of the parameters
-        return BoundTape(tape, inputs_, fixed);
-    }
-
-    std::size_t input_of(const StateEntry& entry) const {
-        if (entry.order == 0) return static_cast<std::size_t>(entry.signal);
-        const auto m = static_cast<std::size_t>(std::find(system_.moving.begin(), system_.moving.end(), entry.signal) - system_.moving.begin());
-        return static_cast<std::size_t>(system_.derivative_input[m][static_cast<std::size_t>(entry.order) - 1]);
-    }
-
-    void set_state(const State& x) {
-        for (std::size_t i = 0; i < x.size(); ++i) inputs_[entry_input_[i]] = x[i];
-    }
-
     /// Driven signals at `fraction` of the period that starts at the present sample.
     void set_driven(double fraction) {
         for (const int s : system_.driven) {
             const std::vector<double>& v = drive_.values[static_cast<std::size_t>(s)];
             const bool held = drive_.held[static_cast<std::size_t>(s)] || sample_ + 1 >= v.size();
-            inputs_[static_cast<std::size_t>(s)] = held ? v[sample_] : v[sample_] + fraction * (v[sample_ + 1] - v[sample_]);
+            motion_.input(s) = held ? v[sample_] : v[sample_] + fraction * (v[sample_ + 1] - v[sample_]);
         }
         for (const InputDerivative& d : system_.input_derivatives) {   // between samples: of what is held, or runs straight
             const std::vector<double>& v = drive_.values[static_cast<std::size_t>(d.signal)];
             const bool held = d.order > 1 || drive_.held[static_cast<std::size_t>(d.signal)] || sample_ + 1 >= v.size();
-            inputs_[static_cast<std::size_t>(d.input)] = held ? 0.0 : (v[sample_ + 1] - v[sample_]) / drive_.period;
+            motion_.input(d.input) = held ? 0.0 : (v[sample_ + 1] - v[sample_]) / drive_.period;
         }
         for (std::size_t d = 0; d < system_.delays.size(); ++d) {
-            if (!system_.delays[d].moves) delayed_input(d) = delayed_value(d, fraction);
+            if (!system_.delays[d].moves) motion_.delayed(d) = delayed_value(d, fraction);
         }
     }
-
-    double& delayed_input(std::size_t d) { return inputs_[static_cast<std::size_t>(system_.delay_input) + d]; }
 
     /// How long ago each delayed signal is, and where in a period such a signal has a sample: a step ends there.
     void set_delays(const std::vector<double>& parameters) {
@@ -147,10 +117,10 @@ private:
         for (std::size_t d = 0; d < past_.size(); ++d) {
             if (!system_.delays[d].moves) continue;
             if (past_[d].value.empty()) {   // the run starts
-                past_[d].value.push_back(inputs_[static_cast<std::size_t>(system_.delays[d].signal)]);
+                past_[d].value.push_back(motion_.input(system_.delays[d].signal));
                 past_[d].slope_behind.push_back(0.0);
             }
-            delayed_input(d) = past_value(past_[d], ago_[d]);
+            motion_.delayed(d) = past_value(past_[d], ago_[d]);
         }
     }
 
@@ -174,109 +144,10 @@ private:
         }
     }
 
-    double result_of(BoundTape& tape) const {
-        double result = 0;
-        tape.evaluate(&result);
-        return result;
-    }
-
-    /// False where a sensor shows no number; it is 0 then.
-    bool apply_outputs() {
-        bool finite = true;
-        for (std::size_t o = 0; o < outputs_.size(); ++o) {
-            const double shown = result_of(outputs_[o]);
-            inputs_[static_cast<std::size_t>(system_.outputs[o].signal)] = std::isfinite(shown) ? shown : 0.0;
-            finite = finite && std::isfinite(shown);
-        }
-        return finite;
-    }
-
-    /// Laws see what the sensors show; what a sensor shows of a law's signal is that of this sample.
-    bool apply_outputs_and_laws() {
-        const bool finite = apply_outputs();
-        for (std::size_t l = 0; l < laws_.size(); ++l) inputs_[static_cast<std::size_t>(system_.laws[l].signal)] = result_of(laws_[l]);
-        return system_.laws.empty() ? finite : apply_outputs() && finite;
-    }
-
     void record() {
-        const auto keep = [&](int signal) { out_.signals[static_cast<std::size_t>(signal)].push_back(inputs_[static_cast<std::size_t>(signal)]); };
+        const auto keep = [&](int signal) { out_.signals[static_cast<std::size_t>(signal)].push_back(motion_.input(signal)); };
         for (const int s : recorded_) keep(s);
         for (const Law& law : system_.laws) keep(law.signal);
-    }
-
-    void evaluate() {
-        ++evaluations_;
-        equations_.evaluate(results_.data());
-    }
-
-    std::size_t highest_input(std::size_t m) const { return static_cast<std::size_t>(system_.derivative_input[m].back()); }
-
-    /// Highest derivatives at the present inputs and relays: residual = r0 + mass * h = 0.
-    const Eigen::VectorXd& highest() {
-        const std::size_t count = system_.moving.size();
-        for (std::size_t m = 0; m < count; ++m) inputs_[highest_input(m)] = 0.0;
-        evaluate();
-        for (std::size_t m = 0; m < count; ++m) residual_[static_cast<Eigen::Index>(m)] = results_[m];
-        if (!inverted_ || !system_.constant_mass) {
-            for (std::size_t m = 0; m < count; ++m) {
-                inputs_[highest_input(m)] = 1.0;
-                evaluate();
-                for (std::size_t e = 0; e < count; ++e) mass_(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(m)) = results_[e] - residual_[static_cast<Eigen::Index>(e)];
-                inputs_[highest_input(m)] = 0.0;
-            }
-            inverse_ = mass_.inverse();
-            inverted_ = true;
-        }
-        for (Eigen::Index m = 0; m < highest_.size(); ++m) {   // a few numbers, a million times: Eigen takes longer to see how few
-            double sum = 0;
-            for (Eigen::Index e = 0; e < highest_.size(); ++e) sum += inverse_(m, e) * residual_[e];
-            highest_[m] = -sum;
-        }
-        return highest_;
-    }
-
-    /// dx/dt with the relays as they are set.
-    void rate_as_set(State& rate) {
-        const Eigen::VectorXd& h = highest();
-        std::size_t i = 0;
-        for (std::size_t m = 0; m < system_.moving.size(); ++m) {
-            for (int order = 0; order < system_.highest[m]; ++order, ++i) {
-                rate[i] = order + 1 < system_.highest[m] ? inputs_[static_cast<std::size_t>(system_.derivative_input[m][static_cast<std::size_t>(order)])] : h[static_cast<Eigen::Index>(m)];
-            }
-        }
-    }
-
-    double& relay(std::size_t r) { return inputs_[static_cast<std::size_t>(system_.relay_input) + r]; }
-    double relay_argument(std::size_t r) const { return results_[static_cast<std::size_t>(system_.relays[r].argument)]; }
-
-    /// d(argument)/dt along the motion, with the relays as they are set.
-    double argument_rate(std::size_t r, const State& x) {
-        State rate(x.size());
-        set_state(x);
-        rate_as_set(rate);
-        evaluate();
-        const double here = relay_argument(r);
-        double largest = 0;
-        for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(rate[i]) / scale_[i]);
-        if (!(largest > 0)) return 0.0;
-        const double h = 1e-7 / largest;
-        State ahead = x;
-        for (std::size_t i = 0; i < x.size(); ++i) ahead[i] += h * rate[i];
-        set_state(ahead);
-        evaluate();
-        const double there = relay_argument(r);
-        set_state(x);
-        return (there - here) / h;
-    }
-
-    /// The value between -1 and 1 that keeps the argument where it is; beyond them where none does.
-    double holding_value(std::size_t r, const State& x) {
-        relay(r) = 1.0;
-        const double up = argument_rate(r, x);
-        relay(r) = -1.0;
-        const double down = argument_rate(r, x);
-        // The argument's rate is linear in the relay: down + (value + 1) (up - down) / 2.
-        return up == down ? 0.0 : -(up + down) / (up - down);
     }
 
     /// The typical size of a layer's argument: the largest that one state of its own typical size makes of it.
@@ -287,37 +158,37 @@ private:
                 State x(scale_.size(), 0.0);
                 x[i] = scale_[i];
                 set_driven(0.0);
-                set_state(x);
-                evaluate();
-                size = std::max(size, std::abs(results_[static_cast<std::size_t>(l.argument)]));
+                motion_.set_state(x);
+                motion_.evaluate();
+                size = std::max(size, std::abs(motion_.argument(l.argument)));
             }
-            inputs_[static_cast<std::size_t>(l.width)] = options_.layer_width * (size > 0 ? size : 1.0);
+            motion_.input(l.width) = options_.layer_width * (size > 0 ? size : 1.0);
         }
     }
 
     /// Sets every relay for the rate at x.
     void set_relays(const State& x) {
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            if (modes_[r] != Mode::holding) relay(r) = modes_[r] == Mode::positive ? 1.0 : -1.0;
+            if (modes_[r] != Mode::holding) motion_.relay(r) = modes_[r] == Mode::positive ? 1.0 : -1.0;
         }
         for (std::size_t r = 0; r < modes_.size(); ++r) {
-            if (modes_[r] == Mode::holding) relay(r) = std::clamp(holding_value(r, x), -1.0, 1.0);
+            if (modes_[r] == Mode::holding) motion_.relay(r) = std::clamp(motion_.holding_value(r, x, scale_), -1.0, 1.0);
         }
     }
 
     void rate(const State& x, State& out, double fraction) {
         set_driven(fraction);
-        set_state(x);
+        motion_.set_state(x);
         set_relays(x);
-        set_state(x);   // holding relays have tried other states
-        rate_as_set(out);
+        motion_.set_state(x);   // holding relays have tried other states
+        motion_.rate(out);
     }
 
     double argument_at(std::size_t r, const State& x, double fraction) {
         set_driven(fraction);
-        set_state(x);
-        evaluate();
-        return relay_argument(r);
+        motion_.set_state(x);
+        motion_.evaluate();
+        return motion_.argument(system_.relays[r].argument);
     }
 
     /// Beyond this an argument is not zero: rounding of a located switch.
@@ -337,9 +208,9 @@ private:
     /// With the argument at zero: it holds where both sides push it back, else it leaves to the side that pulls.
     void choose_at_zero(std::size_t r, const State& x) {
         set_relays(x);
-        const double value = holding_value(r, x);
-        relay(r) = 1.0;
-        const double up = argument_rate(r, x);
+        const double value = motion_.holding_value(r, x, scale_);
+        motion_.relay(r) = 1.0;
+        const double up = motion_.argument_rate(r, x, scale_);
         if (std::abs(value) <= 1.0 && up <= 0) modes_[r] = Mode::holding;
         else modes_[r] = up > 0 ? Mode::positive : Mode::negative;
     }
@@ -380,14 +251,14 @@ private:
         State rate(count);
         State moved(count);
         const State zero(count, 0.0);
-        set_state(zero);
-        rate_as_set(rate);
+        motion_.set_state(zero);
+        motion_.rate(rate);
         Eigen::MatrixXd a(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
         for (std::size_t i = 0; i < count; ++i) {
             State x = zero;
             x[i] = scale_[i];
-            set_state(x);
-            rate_as_set(moved);
+            motion_.set_state(x);
+            motion_.rate(moved);
             for (std::size_t k = 0; k < count; ++k) a(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = (moved[k] - rate[k]) / scale_[k];
         }
         linear_step_ = linear_step(a, span_);   // of states in their typical sizes: digits are lost where a matrix is badly scaled
@@ -401,11 +272,11 @@ private:
         set_driven(0.0);
         set_relays(x);
         if (linear_step_.phi1.size() == 0) set_linear_step(x.size());
-        set_state(x);
-        rate_as_set(slope_);
+        motion_.set_state(x);
+        motion_.rate(slope_);
         if (straight_) {
             set_driven(1.0);
-            rate_as_set(slope_ahead_);
+            motion_.rate(slope_ahead_);
         }
         State next = x;
         for (std::size_t i = 0; i < x.size(); ++i) {
@@ -501,22 +372,12 @@ private:
     const RunOptions& options_;
     StateJumps jumps_;
     FreeRun out_;
-    std::vector<double> inputs_;
-    BoundTape equations_;
-    std::vector<BoundTape> outputs_;
-    std::vector<BoundTape> laws_;
-    std::vector<double> results_;
+    Motion motion_;
     std::vector<Mode> modes_;
-    Eigen::MatrixXd mass_;
-    Eigen::MatrixXd inverse_;   ///< of the mass matrix
-    bool inverted_ = false;
-    Eigen::VectorXd residual_;
-    Eigen::VectorXd highest_;
     Stepper stepper_;
     State slope_;
     State slope_ahead_;
     State error_;
-    std::vector<std::size_t> entry_input_;
     std::vector<double> scale_;
     std::vector<double> farthest_;
     std::vector<double> argument_scale_;
@@ -532,7 +393,6 @@ private:
     double span_;           ///< s, from one kept sample to the next
     std::size_t sample_ = 0;
     std::size_t steps_taken_ = 0;
-    std::size_t evaluations_ = 0;
     double step_ = 0;
 };
 
