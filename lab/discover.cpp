@@ -153,7 +153,7 @@ std::vector<std::string> untried(const Workbench& bench) {
     return out;
 }
 
-/// What a name leaves that no noise makes; known floors alone tell.
+/// What a name leaves, or the model as it is, that no noise makes; known floors alone tell.
 std::optional<Remainder> left_beside(Workbench& bench, const Variant& nominal, const Variant& best) {
     if (bench.yardstick() != Yardstick::free_run || guesses_noise(nominal.model, nominal.bench) || best.score.gap() <= nothing_is_left) return std::nullopt;
     bench.begin_check();
@@ -230,6 +230,8 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
 
     std::optional<Remainder> rest;
     if (names_something(out.verdict)) rest = left_beside(bench, *nominal, selection.best);
+    else if (out.verdict == Verdict::none) rest = left_beside(bench, *nominal, *nominal);
+    const bool beside_a_name = rest && names_something(out.verdict);
     if (rest) out.verdict = Verdict::unknown;
 
     if (progress) progress("confirm", 0.9);
@@ -238,7 +240,10 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     const auto all_doubts = [&] {
         std::vector<std::string> all = doubts(bench, *nominal, selection, out.verdict);
         for (const std::string& doubt : untried(bench)) all.push_back(doubt);
-        if (rest) all.push_back(fmt::format("{} takes most of the gap, but what it leaves in '{}' still follows {}: the law that is missing is another one", selection.best.amendments.back().effect, rest->equation, rest->term));
+        if (rest) {
+            const std::string before = beside_a_name ? selection.best.amendments.back().effect + " takes most of the gap, but" : "the model is near the noise, but";
+            all.push_back(fmt::format("{} what is left in '{}' still follows {}: the law that is missing is another one", before, rest->equation, rest->term));
+        }
         return all;
     };
     out.doubts = all_doubts();
