@@ -144,7 +144,7 @@ std::vector<std::string> untried(const Workbench& bench) {
     std::vector<std::string> without_place;
     for (const auto& [effect, why] : bench.unwritten()) {
         if (why.empty() || why.starts_with("unknown key")) without_place.push_back(effect);
-        else out.push_back(fmt::format("{} was not tried, for the model with it is none: {}", effect, why));
+        else out.push_back(fmt::format("{} was not tried, since the model with it added cannot be estimated: {}", effect, why));
     }
     for (const auto& [effect, equation] : bench.refused()) out.push_back(fmt::format("{} was not tried in '{}': it is no finite number at some samples of the recording", effect, equation));
     if (!without_place.empty()) {
