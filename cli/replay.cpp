@@ -12,6 +12,7 @@
 #include "cli/replay_remarks.hpp"
 #include "generator/generate.hpp"
 #include "lab/replay_report.hpp"
+#include "lab/scatter.hpp"
 #include "lab/write_file.hpp"
 
 namespace algest::cli {
@@ -42,7 +43,7 @@ std::optional<lab::Replay> run(const ReplayOptions& options, const plan::Plan& p
     if (!replay) return std::nullopt;
     ProgressLine progress("standard deviations");
     const bool over_time = !options.output.empty() || !options.report.empty();
-    lab::add_deviations(plan, recording, over_time ? deviations_over_time : deviations_for_remarks, *replay, [&](double share) { progress.show(share); });
+    lab::add_deviations(plan, recording, over_time ? deviations_over_time : lab::deviations_for_scatter, *replay, [&](double share) { progress.show(share); });
     return replay;
 }
 

@@ -9,6 +9,7 @@
 #include "cli/replay_answer.hpp"
 #include "lab/discrete_system.hpp"
 #include "lab/doubt.hpp"
+#include "lab/scatter.hpp"
 #include "lab/standstill.hpp"
 
 namespace algest::cli {
@@ -57,7 +58,7 @@ std::optional<std::string> what_lies_beyond(const model::Parameter& parameter, c
 
 /// The last estimate, where its noise is most of it.
 std::optional<std::string> what_is_hardly_told(const std::string& parameter, const lab::ReplaySummary& summary, std::size_t p) {
-    if (!summary.last[p] || !summary.deviation[p] || std::abs(*summary.last[p]) >= lab::told_from_zero * *summary.deviation[p]) return std::nullopt;
+    if (!summary.last[p] || !summary.deviation[p] || !lab::hardly_told_from_zero(*summary.last[p], *summary.deviation[p])) return std::nullopt;
     return fmt::format("the last estimate of {} is {:.2g} of its standard deviations: hardly told from zero, though rows and unknowns are ok", parameter, std::abs(*summary.last[p]) / *summary.deviation[p]);
 }
 

@@ -136,6 +136,12 @@ Coefficients coefficients(const std::vector<std::string>& texts) {
     return out;
 }
 
+Rational value_at(const Coefficients& p, const Rational& x) {
+    Rational out = 0;
+    for (auto c = p.rbegin(); c != p.rend(); ++c) out = out * x + *c;
+    return out;
+}
+
 Rational moment(const Coefficients& kernel, int power) {
     Rational out = 0;
     for (std::size_t k = 0; k < kernel.size(); ++k) out = out + kernel[k] / (static_cast<int>(k) + power + 1);

@@ -24,6 +24,9 @@ std::vector<double> weights(const Coefficients& kernel, int intervals, plan::Hol
 /// The integral of the kernel over [0,1] by the same rule: what the functional of the constant 1 is.
 exact::Rational integral(const Coefficients& kernel, int intervals, plan::Hold hold, plan::Quadrature quadrature);
 
+/// The polynomial at x, exact.
+exact::Rational value_at(const Coefficients& p, const exact::Rational& x);
+
 /// The integral over [0,1] of kernel(sigma) sigma^power, exact.
 exact::Rational moment(const Coefficients& kernel, int power);
 

@@ -11,13 +11,13 @@ using exact::Rational;
 
 namespace {
 
-/// Drops a window that no estimator can have, after a complaint.
 /// As a model file has it: a decimal, or a fraction in quotation marks.
 std::string written(const Rational& value) {
     const std::string text = exact::decimal(value);
     return text.find('/') == std::string::npos ? text : '"' + text + '"';
 }
 
+/// Drops a window that no estimator can have, after a complaint.
 void check_window(Reading& reading) {
     Model& model = reading.model;
     const Rational intervals = *model.window / model.window_period();

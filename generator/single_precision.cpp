@@ -17,12 +17,6 @@ constexpr int nodes = 256;
 constexpr double most_without_a_word = 0.02;
 constexpr double unit_roundoff = 0x1p-24;
 
-Rational value_at(const kernel::Coefficients& kernel, const Rational& sigma) {
-    Rational out = 0;
-    for (std::size_t j = kernel.size(); j-- > 0;) out = out * sigma + kernel[j];
-    return out;
-}
-
 /// What an equation's rows cancel at most, and the unknowns that stand in them.
 struct Rows {
     Rational cancellation = 0;
@@ -58,7 +52,7 @@ std::string parameters_from(const std::set<int>& unknowns, const model::Model& m
 Rational cancellation(const kernel::Coefficients& of) {
     if (std::all_of(of.begin(), of.end(), [](const Rational& c) { return c == 0; })) return 0;
     Rational size = 0;
-    for (int k = 0; k < nodes; ++k) size = size + cln::abs(value_at(of, Rational(2 * k + 1) / (2 * nodes)));
+    for (int k = 0; k < nodes; ++k) size = size + cln::abs(kernel::value_at(of, Rational(2 * k + 1) / (2 * nodes)));
     int power = 0;
     while (kernel::moment(of, power) == 0) ++power;   // ends: a polynomial that every power annihilates is 0
     return size / nodes / cln::abs(kernel::moment(of, power));

@@ -34,7 +34,8 @@ struct Tape {
     std::vector<int> results;
 };
 
-/// a op b; b is read by operations of two operands alone, a by all but those that read inputs.
+/// The value of an operation that has operands: at a, and at b where it has two. 0 for those that have none (constant, input, previous, derivative).
+/// Always inline: a call costs more than most operations.
 template <class S>
 [[gnu::always_inline]] inline S operated(Op op, const S* a, const S* b) {
     switch (op) {

@@ -9,12 +9,6 @@ namespace {
 
 using exact::Rational;
 
-Rational value_at(const Coefficients& p, const Rational& x) {
-    Rational out = 0;
-    for (auto c = p.rbegin(); c != p.rend(); ++c) out = out * x + *c;
-    return out;
-}
-
 /// p(a + b x).
 Coefficients composed(const Coefficients& p, const Rational& a, const Rational& b) {
     Coefficients out;

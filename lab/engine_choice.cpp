@@ -6,16 +6,9 @@
 
 namespace algest::lab {
 
-namespace {
-
-/// A multiply-add of moments against one of a dot product, which vectorises: it puts the crossover near 70 samples, as measured (design.md, section 5).
-constexpr double slower = 2.5;
-
-}  // namespace
-
 EngineChoice cheaper_engine(const model::Model& model) {
     EngineChoice out{"", 0};
-    double least = 0;
+    long least = 0;
     for (const char* engine : {"fir", "moments"}) {
         generator::PlanOptions options;
         options.engine = engine;
@@ -24,10 +17,10 @@ EngineChoice cheaper_engine(const model::Model& model) {
         const auto plan = generator::plan_of(model, options, unsaid);
         if (!plan || plan->moments.has_value() != (options.engine == "moments")) continue;
         const generator::Cost cost = generator::cost_of(*plan);
-        const double time = static_cast<double>(cost.push * cost.operations + cost.estimate * 2) * (plan->moments ? slower : 1.0);
-        if (!out.engine.empty() && time >= least) continue;
+        const long operations = cost.push * cost.operations + cost.estimate * 2;
+        if (!out.engine.empty() && operations >= least) continue;
         out = {engine, cost.push + cost.estimate};
-        least = time;
+        least = operations;
     }
     return out;
 }

@@ -66,7 +66,7 @@ void run_deviations(const plan::Plan& plan, const std::vector<std::vector<double
     const auto last = std::find(replay.status.rbegin(), replay.status.rend(), Status::ok);
     if (last == replay.status.rend()) return;
     const std::size_t samples = static_cast<std::size_t>(replay.status.rend() - last);
-    const std::size_t stride = std::max<std::size_t>(1, samples / std::max<std::size_t>(most, 1));
+    const std::size_t stride = deviation_stride(samples, most);
     replay.deviations.assign(replay.parameters.size(), std::numeric_limits<double>::quiet_NaN());
     replay.biases = replay.deviations;
     HostEstimator<S> estimator(plan);
@@ -124,6 +124,12 @@ std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording,
     if (!signals_fit || !period_fits || !check_length(plan, recording, rows, diagnostics)) return std::nullopt;
     return plan.scalar == plan::Scalar::float64 ? run<double>(plan, recording, inputs, rows, progress)
                                                 : run<float>(plan, recording, inputs, rows, progress);
+}
+
+std::size_t deviation_stride(std::size_t samples, std::size_t most) {
+    std::size_t stride = 1;
+    while (2 * stride * std::max<std::size_t>(most, 1) <= samples) stride *= 2;
+    return stride;
 }
 
 void add_deviations(const plan::Plan& plan, const Recording& recording, std::size_t most, Replay& replay, const ProgressReport& progress) {

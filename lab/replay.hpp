@@ -55,10 +55,13 @@ using ProgressReport = std::function<void(double)>;
 std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording, const Stretch& stretch,
                              Diagnostics& diagnostics, const ProgressReport& progress = {});
 
-/// Adds standard deviations and biases, by the runtime's uncertainty(), at the last ok sample and at evenly spaced ok ones, about `most` of them, in a
+/// Adds standard deviations and biases, by the runtime's uncertainty(), at the last ok sample and at evenly spaced ok ones, `most` to twice as many, in a
 /// second run over what was replayed: at every sample they would cost a thousand times the estimates. Nothing where the plan declares no noise.
 /// Cost: HostEstimator::step a sample, HostEstimator::uncertainty for each of them.
 void add_deviations(const plan::Plan& plan, const Recording& recording, std::size_t most, Replay& replay, const ProgressReport& progress = {});
+
+/// From one of those samples to the next, of `samples` up to the last ok one: a power of two, so that few of them are among many. Those lie at multiples.
+std::size_t deviation_stride(std::size_t samples, std::size_t most);
 
 /// Cost: samples * parameters.
 ReplaySummary summarise(const Replay& replay);

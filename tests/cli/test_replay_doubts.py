@@ -66,7 +66,7 @@ class ReplayDoubts(CommandLine):
         self.assertNotIn("scatter", err)
 
     def test_what_is_hardly_told_from_zero(self):
-        """A coil of 3 ohm whose current is 1 A +- 0.9 A of noise: R has no digit, and deviation_limit asks the unknowns alone."""
+        """A coil whose current is measured with 0.9 A of noise: one of R and L has no digit, and deviation_limit lets it pass."""
         noisy = RL.replace('i = { unit = "A" }', 'i = { unit = "A", noise = 0.9 }') + "deviation_limit = 100\n"
         status, err = self.said(noisy, recording(noise=0.9))
         self.assertGreater(status["ok"], 0)

@@ -159,11 +159,11 @@ constexpr const char* all_models[] = {"dc_motor", "drive_train", "drive_train_ze
 }  // namespace
 
 TEMPLATE_TEST_CASE("hostile samples: an ok estimate is a number, in double", "", ALGEST_COMMITTED) {
-    survives<double>(model<TestType>, plan_of(model<TestType>, plan::Scalar::float64));
+    for (const char* engine : engines) survives<double>(model<TestType>, plan_of(model<TestType>, plan::Scalar::float64, engine));
 }
 
 TEMPLATE_TEST_CASE("hostile samples: an ok estimate is a number, in float", "", ALGEST_COMMITTED) {
-    survives<float>(model<TestType>, plan_of(model<TestType>, plan::Scalar::float32));
+    for (const char* engine : engines) survives<float>(model<TestType>, plan_of(model<TestType>, plan::Scalar::float32, engine));
 }
 
 TEST_CASE("hostile samples: an ok estimate is a number, through a ratio filter") {
@@ -256,6 +256,16 @@ TEMPLATE_TEST_CASE("constant signals are singular where only derivatives see the
             INFO("angle " << angle << ", engine " << engine);
             CHECK(fed<TestType>("pendulum", [&](int) { return std::vector<double>{angle}; }, engine) == Status::singular);
         }
+    }
+}
+
+TEST_CASE("constant signals are singular in a growing window") {
+    const plan::Plan plan = plants::plan_of(plants::changed(plants::committed_model("dc_motor"), {{"[sampling]", "[sampling]\ngrowing = true"}, {"[estimator]", "[estimator]\nengine = \"moments\""}}));
+    REQUIRE(plan.samples_to_first_estimate() < plan.samples());   // it estimates before the window is full
+    for (const double angle : {0.3, -1e6, 1e-9}) {
+        Watched<double> estimator(plan);
+        for (int k = 0; k < plan.samples() + 50; ++k) REQUIRE(estimator.step({angle, 1.0}) != Status::ok);
+        CHECK(estimator.count[static_cast<std::size_t>(Status::singular)] > plan.samples() / 2);
     }
 }
 

@@ -72,7 +72,7 @@ TEST_CASE("moments of single-precision samples, summed in two floats or in doubl
         const double twofold = error_of<float, Twofold<float>>(6, 2000, rule, 40, 181);
         const double wide = error_of<float, double>(6, 2000, rule, 40, 181);
         fmt::print("moments, float, d = 6, M = 2000: two floats {:.1e}, double {:.1e}\n", twofold, wide);
-        CHECK(twofold < 2e-6);   // ten times what docs/engines.md states, here and below
+        CHECK(twofold < 2e-6);   // ten to twenty times what docs/engines.md states, here and below: other signals have other roundings
         CHECK(wide < 2e-6);
     }
 }
@@ -90,28 +90,33 @@ TEST_CASE("moments do not drift in a million samples, the textbook recursion doe
     const auto kernels = nine_kernels(degree);
     MomentWindow<double, double> window(kernels, intervals, linear);
     NaiveMoments naive(degree, intervals);
+    const auto naive_error = [&] {   // of the highest power, as a part of the largest moment
+        long double exact = 0.0L;
+        for (int m = 0; m <= intervals; ++m) exact += std::pow((2.0L * m - intervals) / intervals, degree) * static_cast<long double>(window.sample(static_cast<std::size_t>(m)));
+        return std::abs(naive.moments()[degree] - static_cast<double>(exact)) / intervals;
+    };
     for (long k = 0; k < 1'000'000; ++k) {
         const double leaving = k > intervals ? moment_signal(k - intervals - 1) : 0.0;
         window.push(moment_signal(k));
         naive.push(moment_signal(k), leaving);
+        if (k == 2 * intervals) CHECK(naive_error() < 1e-10);   // it is the right recursion: (N/M)^d epsilon is 1e-14 at N = 2 M
     }
     Comparison<double> comparison(kernels, intervals, linear);
     comparison.look(window);
     fmt::print("moments, double, d = 6, M = 2000, after 1e6 samples: {:.1e}\n", comparison.worst());
     CHECK(comparison.worst() < 3e-13);
 
-    long double exact = 0.0L;   // of the highest power
-    for (int m = 0; m <= intervals; ++m) exact += std::pow((2.0L * m - intervals) / intervals, degree) * static_cast<long double>(window.sample(static_cast<std::size_t>(m)));
-    const double off = std::abs(naive.moments()[degree] - static_cast<double>(exact)) / intervals;
+    const double off = naive_error();
     fmt::print("textbook recursion after 1e6 samples: off by {:.1e} of the largest moment\n", off);
-    CHECK_FALSE(off < 1e-3);   // (N/M)^d epsilon is 3 at N = 1e6
+    CHECK(std::isfinite(off));
+    CHECK(off > 0.1);   // (N/M)^d epsilon is 3 at N = 1e6; the sum of its roundings is larger
 }
 
 TEST_CASE("moments of a degree that the compiler knows are those of the loops that a controller runs, to the last bit") {
     constexpr int intervals = 30, signals = 2;
     for (int degree = 1; degree <= 10; ++degree) {
         const auto count = static_cast<std::size_t>(degree) + 1;
-        const std::vector<unsigned char> degrees(signals, static_cast<unsigned char>(degree));
+        const std::vector<unsigned char> degrees = {static_cast<unsigned char>(degree), static_cast<unsigned char>(degree / 2)};   // what is unrolled goes to the largest
         const MomentSet<double, double> set{degree, 1.0 / 64, {degrees.data(), signals}, {nullptr, 0}, {nullptr, 0}};
         // Loops first, then what the processor of this test runs.
         std::vector<double> accumulators[2], references[2], sizes[2], shifted[2];
@@ -140,6 +145,7 @@ TEST_CASE("moments of a degree that the compiler knows are those of the loops th
             }
         }
         CHECK(accumulators[0] == accumulators[1]);
+        CHECK(sizes[0] == sizes[1]);
         CHECK(shifted[0] == shifted[1]);
     }
 }

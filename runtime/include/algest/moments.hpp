@@ -320,7 +320,7 @@ inline void evaluate_served(Degree degree, const MomentSet<S, A>& set, const Row
 inline void restart_moments(MomentProgress& progress) noexcept { progress.position = -1; }
 
 /// Takes one sample of every signal; `leaving` left the window with it (any finite values while the window fills).
-/// scratch: moment_scratch. Cost: (rebuilt_frames + 2) signals (degree + 1) products and sums, with each signal's own degree. Never fails; what is not finite is gone after frame_samples.
+/// scratch: moment_scratch. Cost: (rebuilt_frames + 2) (degree + signals (degree + 1)) products and sums, with each signal's own degree. Never fails; what is not finite is gone after frame_samples.
 template <class S, class A>
 inline void add_sample(const MomentSet<S, A>& set, int intervals, const MomentMemory<S, A>& memory, const S* sample, const S* leaving, A* scratch) noexcept {
     detail::with_degree<A>(set.degree, [&](auto degree) { detail::add_sample_of(degree, set, intervals, memory, sample, leaving, scratch); });

@@ -72,21 +72,24 @@ inline void clear_rows(const RowSet<S>& set, RowSums<S> to) noexcept {
     clear_rows(set, to.size);
 }
 
+/// Where a term stands in [P|Q].
+template <class S>
+constexpr int entry_of(const Term<S>& term, int unknowns) noexcept {
+    return term.row * (unknowns + 1) + term.column;
+}
+
 /// Adds the value of one functional to the entries that it enters.
 template <class S>
 inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S* matrix) noexcept {
-    for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
-        const Term<S>& term = set.terms[i];
-        matrix[term.row * (set.unknowns + 1) + term.column] += term.factor * value;
-    }
+    const Term<S>* term = set.terms.data + f.first_term;
+    for (const Term<S>* const end = term + f.terms; term != end; ++term) matrix[entry_of(*term, set.unknowns)] += term->factor * value;
 }
 /// The same with the sum of absolute values behind it.
 template <class S>
 inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S size, RowSums<S> to) noexcept {
-    const int columns = set.unknowns + 1;
     const Term<S>* term = set.terms.data + f.first_term;
     for (const Term<S>* const end = term + f.terms; term != end; ++term) {
-        const int entry = term->row * columns + term->column;
+        const int entry = entry_of(*term, set.unknowns);
         to.matrix[entry] += term->factor * value;
         to.size[entry] += std::abs(term->factor) * size;
     }
