@@ -75,7 +75,7 @@ public:
     struct Uncertainty {
         Status status;     ///< of the estimate that it is about; the numbers are infinite unless ok
         Deviations sd;     ///< standard deviations
-        Deviations bias;   ///< expected estimate minus truth, to the second order of the noise
+        Deviations bias;   ///< expected estimate minus truth, what of it does not shrink with the number of points
     };
 
     PmsmSensorless() noexcept { reset(); }
@@ -230,7 +230,8 @@ public:
 
     /// Solves with the windows as they are now, and says how far the declared noise may have moved the solution: a 95 percent interval
     /// is value - bias +- 1.96 sd. The errors of operating points count as independent.
-    /// Errors of the means count as declared, or as larger as the residuals are. If an operating point ends while it runs, the status is filling. Call it where estimate() may be called, or on a copy.
+    /// Errors of the means count as declared, or as larger as residuals say. If an operating point ends while it runs, the status is filling.
+    /// Call it where estimate() may be called, or on a copy.
     Uncertainty uncertainty() noexcept {
         Scalar scratch[point_uncertainty_scratch(pmsm_sensorless_tables::blueprint)];
         Scalar lumped[8];
