@@ -4,9 +4,10 @@
 # CONFIGURE gives CMake more to say: make test CONFIGURE=-DALGEST_WERROR=ON
 CONFIGURE ?=
 configure = cmake --preset release $(CONFIGURE)
-# Seconds for each fuzz target, and what of the tests runs sanitized: make test-sanitized SANITIZED='-R ^cli/'
+# Seconds for each fuzz target, and what of the tests runs sanitized, or in test-long: make test-sanitized SANITIZED='-R ^cli/'
 FUZZ_SECONDS ?= 1800
 SANITIZED ?=
+LONG ?=
 ctest = ctest --test-dir build --output-on-failure --no-tests=error --parallel $$(nproc)
 
 .PHONY: all demo test test-long test-sanitized fuzz clean
@@ -23,7 +24,7 @@ test test-long:
 	@.ci/install core test
 	@$(configure)
 	@cmake --build build
-	@$(ctest) $(if $(filter test,$@),--label-exclude long)
+	@$(ctest) $(if $(filter test,$@),--label-exclude long,$(LONG))
 
 sanitized = cmake --preset sanitized $(CONFIGURE) && cmake --build --preset sanitized --target
 

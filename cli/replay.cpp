@@ -42,7 +42,7 @@ std::optional<lab::Replay> run(const ReplayOptions& options, const plan::Plan& p
     if (!replay) return std::nullopt;
     ProgressLine progress("standard deviations");
     const bool over_time = !options.output.empty() || !options.report.empty();
-    lab::add_deviations(plan, recording, over_time ? deviations_over_time : 1, *replay, [&](double share) { progress.show(share); });
+    lab::add_deviations(plan, recording, over_time ? deviations_over_time : deviations_for_remarks, *replay, [&](double share) { progress.show(share); });
     return replay;
 }
 

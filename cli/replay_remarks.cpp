@@ -46,27 +46,46 @@ std::optional<std::string> what_makes_singular(const plan::Plan& plan, const lab
 }
 
 /// Estimates that cannot be: how many of the ok ones lie beyond a declared min or max. Noise takes a few of them across.
-void add_what_lies_beyond(const model::Model& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, std::size_t ok, Diagnostics& diagnostics) {
+std::optional<std::string> what_lies_beyond(const model::Parameter& parameter, const lab::Replay& replay, std::size_t p, std::size_t ok) {
     constexpr double a_few = 0.05;
-    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
-        const int declared = model.parameter_index(plan.parameters[p].name);
-        if (declared < 0) continue;
-        const model::Parameter& parameter = model.parameters[static_cast<std::size_t>(declared)];
-        const lab::Limits limits = lab::limits_of(parameter);
-        std::size_t beyond = 0;
-        for (std::size_t k = 0; k < replay.samples(); ++k) beyond += replay.status[k] == Status::ok && !limits.hold(replay.parameter(k, p)) ? 1 : 0;
-        if (static_cast<double>(beyond) <= a_few * static_cast<double>(ok)) continue;
-        diagnostics.note(recording.file, fmt::format("{} of {} ok estimates of {} lie beyond its min or max: a sensor that is stuck, a unit, or what the model misses (algest discover)", beyond, ok, parameter.name));
-    }
+    const lab::Limits limits = lab::limits_of(parameter);
+    std::size_t beyond = 0;
+    for (std::size_t k = 0; k < replay.samples(); ++k) beyond += replay.status[k] == Status::ok && !limits.hold(replay.parameter(k, p)) ? 1 : 0;
+    if (static_cast<double>(beyond) <= a_few * static_cast<double>(ok)) return std::nullopt;
+    return fmt::format("{} of {} ok estimates of {} lie beyond its min or max: a sensor that is stuck, a unit, or what the model misses (algest discover)", beyond, ok, parameter.name);
 }
 
-/// Parameters that operating points do not tell from zero. They have one answer, of all points; what slides over a recording has moments at which that is so.
-void add_what_is_doubtful(const model::Model& model, const plan::Plan& plan, const lab::Recording& recording, const lab::ReplaySummary& summary, Diagnostics& diagnostics) {
-    for (std::size_t p = 0; plan.steady && p < plan.parameters.size(); ++p) {
-        const int declared = model.parameter_index(plan.parameters[p].name);
-        if (declared < 0 || !summary.last[p] || !summary.deviation[p]) continue;
-        if (const auto why = lab::doubt(model.parameters[static_cast<std::size_t>(declared)], *summary.last[p], summary.deviation[p])) diagnostics.note(recording.file, "doubtful: " + *why);
+/// The last estimate, where its noise is most of it.
+std::optional<std::string> what_is_hardly_told(const std::string& parameter, const lab::ReplaySummary& summary, std::size_t p) {
+    if (!summary.last[p] || !summary.deviation[p] || std::abs(*summary.last[p]) >= lab::told_from_zero * *summary.deviation[p]) return std::nullopt;
+    return fmt::format("the last estimate of {} is {:.2g} of its standard deviations: hardly told from zero, though rows and unknowns are ok", parameter, std::abs(*summary.last[p]) / *summary.deviation[p]);
+}
+
+/// Parameters whose estimates differ by more than noise from window to window.
+std::optional<std::string> what_scatters(const plan::Plan& plan, const lab::Replay& replay) {
+    std::string found;
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
+        const auto scatter = lab::scatter_in_deviations(replay, p);
+        if (scatter && *scatter >= lab::more_than_noise) found += fmt::format("{}{} by {:.0f}", found.empty() ? "" : ", ", plan.parameters[p].name, *scatter);
     }
+    if (found.empty()) return std::nullopt;
+    return fmt::format("estimates scatter over the recording by more than their standard deviations: {}; beside the declared noise they see a parameter that "
+                       "changes, what the model misses (algest discover), or how a signal is held between samples", found);
+}
+
+/// What speaks against the estimates of each parameter.
+void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t ok, Diagnostics& diagnostics) {
+    Diagnostics said_before;   // by plan_from_model, of the same file
+    const auto model = model::read(path, false, said_before);
+    if (!model) return;
+    const auto note = [&](const std::optional<std::string>& text) { if (text) diagnostics.note(recording.file, *text); };
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
+        const std::string& name = plan.parameters[p].name;
+        const int declared = model->parameter_index(name);
+        if (declared >= 0) note(what_lies_beyond(model->parameters[static_cast<std::size_t>(declared)], replay, p, ok));
+        note(what_is_hardly_told(name, summary, p));
+    }
+    note(what_scatters(plan, replay));
 }
 
 bool every_window_is_singular(const lab::ReplaySummary& summary) {
@@ -81,11 +100,7 @@ void add_remarks(const std::string& model, const plan::Plan& plan, const lab::Re
     if (const auto why = what_makes_singular(plan, replay, summary)) diagnostics.note(recording.file, *why);
     const std::size_t ok = summary.count[static_cast<std::size_t>(Status::ok)];
     if (ok == 0) return;
-    Diagnostics said_before;   // by plan_from_model, of the same file
-    if (const auto declared = model::read(model, false, said_before)) {
-        add_what_lies_beyond(*declared, plan, recording, replay, ok, diagnostics);
-        add_what_is_doubtful(*declared, plan, recording, summary, diagnostics);
-    }
+    add_doubts(model, plan, recording, replay, summary, ok, diagnostics);
     if (const auto still = what_stands_still(plan, recording, stretch, replay)) diagnostics.note(recording.file, *still);
 }
 

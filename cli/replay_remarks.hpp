@@ -11,8 +11,11 @@
 
 namespace algest::cli {
 
+/// Standard deviations that the remarks need over a replay, lab::add_deviations' `most`.
+constexpr std::size_t deviations_for_remarks = 32;
+
 /// Notes of one replay: of the model, that another domain would serve; of the recording, why most samples are singular, that estimates rest on noise
-/// alone or lie beyond their limits. Cost: samples x parameters.
+/// alone, lie beyond their limits, are hardly told from zero, or differ by more than noise. Cost: samples x parameters.
 void add_remarks(const std::string& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay,
                  const lab::ReplaySummary& summary, Diagnostics& diagnostics);
 

@@ -23,7 +23,7 @@ ordered_json answer(const ReplayOptions& options, const plan::Plan& plan, const 
     Diagnostics diagnostics;
     const auto recording = lab::read_recording(file, diagnostics, options.csv);
     auto replay = recording ? lab::replay(plan, *recording, stretch, diagnostics) : std::nullopt;
-    if (replay) lab::add_deviations(plan, *recording, 1, *replay);
+    if (replay) lab::add_deviations(plan, *recording, deviations_for_remarks, *replay);
     const lab::ReplaySummary summary = replay ? lab::summarise(*replay) : lab::ReplaySummary();
     if (replay) {
         add_remarks(options.model, plan, *recording, stretch, *replay, summary, diagnostics);

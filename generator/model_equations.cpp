@@ -23,6 +23,7 @@ formula::Complain complaint_at(const std::vector<Position>& places, TomlAccess& 
 }
 
 bool unknown_name(const Formula& f, const std::vector<Position>& places, Reading& reading) {
+    if (reading.refused_names.count(f->name) > 0) return false;   // said where it is declared
     std::vector<std::string> declared;
     for (const auto& [key, name] : reading.names) declared.push_back(name);
     reading.file.error(place_of(f->start, places), "unknown name '" + f->name + "'",

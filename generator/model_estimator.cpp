@@ -12,6 +12,12 @@ using exact::Rational;
 namespace {
 
 /// Drops a window that no estimator can have, after a complaint.
+/// As a model file has it: a decimal, or a fraction in quotation marks.
+std::string written(const Rational& value) {
+    const std::string text = exact::decimal(value);
+    return text.find('/') == std::string::npos ? text : '"' + text + '"';
+}
+
 void check_window(Reading& reading) {
     Model& model = reading.model;
     const Rational intervals = *model.window / model.window_period();
@@ -23,7 +29,7 @@ void check_window(Reading& reading) {
     } else if (!exact::is_integer(intervals)) {
         const exact::Integer below = cln::floor1(intervals);
         reading.file.error(model.window_at, "the window is not a whole number of " + period + "s: between " + exact::text(below) + " and " + exact::text(below + 1),
-                           "e.g. window = \"" + exact::text(below * model.window_period()) + "\", which is " + exact::text(below));
+                           "e.g. window = " + written(below * model.window_period()) + ", which is " + exact::text(below));
     } else {
         return;
     }

@@ -15,6 +15,7 @@ namespace {
 bool take_name(const std::string& name, Position at, Reading& reading) {
     if (const auto fault = fault_of_name(name)) {
         reading.file.error(at, fault->what, fault->right);
+        reading.refused_names.insert(name);
         return false;
     }
     const auto [place, fresh] = reading.names.emplace(folded(name), name);

@@ -2,6 +2,7 @@
 // The sections of a model file: what their readers share, and which file reads which.
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 
 #include "generator/model.hpp"
@@ -15,6 +16,7 @@ struct Reading {
     Model& model;
     bool strict;                                    ///< a missing unit is an error
     std::map<std::string, std::string> names = {};  ///< folded -> as declared
+    std::set<std::string> refused_names = {};       ///< declared, but no names
 };
 
 // model_quantities.cpp: names, units, limits.

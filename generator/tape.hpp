@@ -34,34 +34,46 @@ struct Tape {
     std::vector<int> results;
 };
 
+/// a op b; b is read by operations of two operands alone, a by all but those that read inputs.
+template <class S>
+[[gnu::always_inline]] inline S operated(Op op, const S* a, const S* b) {
+    switch (op) {
+        case Op::constant:
+        case Op::input:
+        case Op::previous:
+        case Op::derivative: break;
+        case Op::neg: return -*a;
+        case Op::add: return *a + *b;
+        case Op::sub: return *a - *b;
+        case Op::mul: return *a * *b;
+        case Op::div: return *a / *b;
+        case Op::sqrt: return std::sqrt(*a);
+        case Op::exp: return std::exp(*a);
+        case Op::log: return std::log(*a);
+        case Op::sin: return std::sin(*a);
+        case Op::cos: return std::cos(*a);
+        case Op::tan: return std::tan(*a);
+        case Op::abs: return std::abs(*a);
+        case Op::sgn: return algest::sgn(*a);
+        case Op::min: return algest::smaller(*a, *b);
+        case Op::max: return algest::larger(*a, *b);
+        case Op::pow: return std::pow(*a, *b);
+    }
+    return S(0);
+}
+
 /// Evaluates a tape. `input`, `previous`, `derivative`: arrays over the inputs (unused ones may be null);
 /// `values`: scratch, one per operation; `results`: one per result. Cost: one operation each. Total: never throws.
 template <class S>
 inline void evaluate(const Tape& tape, const S* input, const S* previous, const S* derivative, S* values, S* results) {
     for (std::size_t k = 0; k < tape.operations.size(); ++k) {
         const Operation& o = tape.operations[k];
-        S& v = values[k];
         switch (o.op) {
-            case Op::constant: v = static_cast<S>(o.value); break;
-            case Op::input: v = input[o.a]; break;
-            case Op::previous: v = previous[o.a]; break;
-            case Op::derivative: v = derivative[o.a]; break;
-            case Op::neg: v = -values[o.a]; break;
-            case Op::add: v = values[o.a] + values[o.b]; break;
-            case Op::sub: v = values[o.a] - values[o.b]; break;
-            case Op::mul: v = values[o.a] * values[o.b]; break;
-            case Op::div: v = values[o.a] / values[o.b]; break;
-            case Op::sqrt: v = std::sqrt(values[o.a]); break;
-            case Op::exp: v = std::exp(values[o.a]); break;
-            case Op::log: v = std::log(values[o.a]); break;
-            case Op::sin: v = std::sin(values[o.a]); break;
-            case Op::cos: v = std::cos(values[o.a]); break;
-            case Op::tan: v = std::tan(values[o.a]); break;
-            case Op::abs: v = std::abs(values[o.a]); break;
-            case Op::sgn: v = algest::sgn(values[o.a]); break;
-            case Op::min: v = algest::smaller(values[o.a], values[o.b]); break;
-            case Op::max: v = algest::larger(values[o.a], values[o.b]); break;
-            case Op::pow: v = std::pow(values[o.a], values[o.b]); break;
+            case Op::constant: values[k] = static_cast<S>(o.value); break;
+            case Op::input: values[k] = input[o.a]; break;
+            case Op::previous: values[k] = previous[o.a]; break;
+            case Op::derivative: values[k] = derivative[o.a]; break;
+            default: values[k] = operated(o.op, values + o.a, o.b < 0 ? nullptr : values + o.b);
         }
     }
     for (std::size_t r = 0; r < tape.results.size(); ++r) results[r] = values[static_cast<std::size_t>(tape.results[r])];

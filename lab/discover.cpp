@@ -142,7 +142,7 @@ std::vector<std::string> untried(const Workbench& bench) {
     std::vector<std::string> without_place;
     for (const auto& [effect, why] : bench.unwritten()) {
         if (why.empty() || why.starts_with("unknown key")) without_place.push_back(effect);
-        else out.push_back(fmt::format("{} was not tried, for the model with it is none: {}", effect, why));
+        else out.push_back(fmt::format("{} was not tried, since the model with it added cannot be estimated: {}", effect, why));
     }
     if (!without_place.empty()) {
         out.push_back(fmt::format("not tried, for the model file leaves no place for what they bring: {}; write [parameters], [constants] and [signals] as sections with a line for each entry", fmt::join(without_place, ", ")));

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "lab/median.hpp"
 
 namespace algest::lab {
 
@@ -36,6 +39,24 @@ std::optional<std::string> doubt(const model::Parameter& parameter, double value
     if (hardly) out += fmt::format(" is {:.2g} of its standard deviations and hardly told from zero", std::abs(value) / *deviation);
     if (against) out += fmt::format("{} contradicts {}", hardly ? ", and" : "", *against);
     return out;
+}
+
+std::optional<double> scatter_in_deviations(const Replay& replay, std::size_t p) {
+    constexpr std::size_t fewest = 8;
+    constexpr double normal = 1.4826;   // sd over the median of |error|
+    if (replay.deviations.empty()) return std::nullopt;
+    std::vector<std::size_t> known;
+    std::vector<double> values;
+    for (std::size_t k = 0; k < replay.samples(); ++k) {
+        if (replay.status[k] != Status::ok || !(replay.deviation(k, p) > 0)) continue;
+        known.push_back(k);
+        values.push_back(replay.parameter(k, p));
+    }
+    if (known.size() < fewest) return std::nullopt;
+    const double middle = *median(values);
+    std::vector<double> off;
+    for (const std::size_t k : known) off.push_back(std::abs(replay.parameter(k, p) - middle) / replay.deviation(k, p));
+    return normal * *median(off);
 }
 
 }  // namespace algest::lab

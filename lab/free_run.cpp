@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "generator/tape.hpp"
+#include "lab/bound_tape.hpp"
 #include "lab/input_jumps.hpp"
 #include "lab/linear_motion.hpp"
 #include "lab/past.hpp"
@@ -28,13 +28,14 @@ enum class Mode { negative, holding, positive };
 class Run {
 public:
     Run(const OdeSystem& system, const std::vector<double>& parameters, const Drive& drive, const RunOptions& options)
-        : system_(system), drive_(drive), options_(options), jumps_(system, parameters, drive.held), inputs_(static_cast<std::size_t>(system.inputs), 0.0),
-          values_(system.residual.operations.size()), results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
+        : system_(system), drive_(drive), options_(options), jumps_(system, parameters, drive.held), inputs_(first_inputs(system, parameters)), equations_(bound(system.residual)),
+          results_(system.residual.results.size()), modes_(system.relays.size(), Mode::positive),
           mass_(static_cast<Eigen::Index>(system.moving.size()), static_cast<Eigen::Index>(system.moving.size())),
-          residual_(static_cast<Eigen::Index>(system.moving.size())), slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
+          residual_(static_cast<Eigen::Index>(system.moving.size())), highest_(static_cast<Eigen::Index>(system.moving.size())), slope_(system.states.size()), slope_ahead_(system.states.size()), error_(system.states.size()), span_(drive.period * static_cast<double>(options.stride)) {
         recorded_ = simulated_signals(system);
         set_delays(parameters);
-        for (std::size_t p = 0; p < parameters.size(); ++p) inputs_[static_cast<std::size_t>(system.parameter_input) + p] = parameters[p];
+        for (const Output& output : system.outputs) outputs_.push_back(bound(output.tape));
+        for (const Law& law : system.laws) laws_.push_back(bound(law.tape));
         for (const StateEntry& entry : system.states) entry_input_.push_back(input_of(entry));
         scale_ = options.scale;
         scale_.resize(system.states.size(), 1.0);
@@ -75,6 +76,18 @@ public:
     }
 
 private:
+    static std::vector<double> first_inputs(const OdeSystem& system, const std::vector<double>& parameters) {
+        std::vector<double> out(static_cast<std::size_t>(system.inputs), 0.0);
+        std::copy(parameters.begin(), parameters.end(), out.begin() + system.parameter_input);
+        return out;
+    }
+
+    BoundTape bound(const plan::Tape& tape) const {
+        std::vector<bool> fixed(inputs_.size(), false);
+        std::fill(fixed.begin() + system_.parameter_input, fixed.begin() + system_.delay_input, true);   // those of the parameters
+        return BoundTape(tape, inputs_, fixed);
+    }
+
     std::size_t input_of(const StateEntry& entry) const {
         if (entry.order == 0) return static_cast<std::size_t>(entry.signal);
         const auto m = static_cast<std::size_t>(std::find(system_.moving.begin(), system_.moving.end(), entry.signal) - system_.moving.begin());
@@ -161,19 +174,18 @@ private:
         }
     }
 
-    double result_of(const plan::Tape& tape) const {
-        std::vector<double> values(tape.operations.size());
+    double result_of(BoundTape& tape) const {
         double result = 0;
-        plan::evaluate<double>(tape, inputs_.data(), nullptr, nullptr, values.data(), &result);
+        tape.evaluate(&result);
         return result;
     }
 
     /// False where a sensor shows no number; it is 0 then.
     bool apply_outputs() {
         bool finite = true;
-        for (const Output& output : system_.outputs) {
-            const double shown = result_of(output.tape);
-            inputs_[static_cast<std::size_t>(output.signal)] = std::isfinite(shown) ? shown : 0.0;
+        for (std::size_t o = 0; o < outputs_.size(); ++o) {
+            const double shown = result_of(outputs_[o]);
+            inputs_[static_cast<std::size_t>(system_.outputs[o].signal)] = std::isfinite(shown) ? shown : 0.0;
             finite = finite && std::isfinite(shown);
         }
         return finite;
@@ -182,7 +194,7 @@ private:
     /// Laws see what the sensors show; what a sensor shows of a law's signal is that of this sample.
     bool apply_outputs_and_laws() {
         const bool finite = apply_outputs();
-        for (const Law& law : system_.laws) inputs_[static_cast<std::size_t>(law.signal)] = result_of(law.tape);
+        for (std::size_t l = 0; l < laws_.size(); ++l) inputs_[static_cast<std::size_t>(system_.laws[l].signal)] = result_of(laws_[l]);
         return system_.laws.empty() ? finite : apply_outputs() && finite;
     }
 
@@ -194,7 +206,7 @@ private:
 
     void evaluate() {
         ++evaluations_;
-        plan::evaluate<double>(system_.residual, inputs_.data(), nullptr, nullptr, values_.data(), results_.data());
+        equations_.evaluate(results_.data());
     }
 
     std::size_t highest_input(std::size_t m) const { return static_cast<std::size_t>(system_.derivative_input[m].back()); }
@@ -215,7 +227,11 @@ private:
             inverse_ = mass_.inverse();
             inverted_ = true;
         }
-        highest_ = -inverse_.lazyProduct(residual_);   // a few numbers, a million times: no allocation, no blocking
+        for (Eigen::Index m = 0; m < highest_.size(); ++m) {   // a few numbers, a million times: Eigen takes longer to see how few
+            double sum = 0;
+            for (Eigen::Index e = 0; e < highest_.size(); ++e) sum += inverse_(m, e) * residual_[e];
+            highest_[m] = -sum;
+        }
         return highest_;
     }
 
@@ -486,7 +502,9 @@ private:
     StateJumps jumps_;
     FreeRun out_;
     std::vector<double> inputs_;
-    std::vector<double> values_;
+    BoundTape equations_;
+    std::vector<BoundTape> outputs_;
+    std::vector<BoundTape> laws_;
     std::vector<double> results_;
     std::vector<Mode> modes_;
     Eigen::MatrixXd mass_;

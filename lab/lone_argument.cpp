@@ -87,7 +87,7 @@ std::optional<LoneArgument> lone_argument(const model::Model& model, const Formu
     if (!a || a->mover.empty()) return std::nullopt;
     if (!a->known) return LoneArgument{formula::text(argument), false};
     if (cln::zerop(a->slope)) return std::nullopt;
-    return LoneArgument{a->mover + " = " + exact::text(-a->offset / a->slope), cln::minusp(a->slope)};
+    return LoneArgument{a->mover + " = " + exact::decimal(-a->offset / a->slope), cln::minusp(a->slope)};
 }
 
 }  // namespace algest::lab

@@ -9,15 +9,16 @@ from environment import SOURCE
 RL = (SOURCE / "models/rl_circuit.toml").read_text()
 
 
-def recording(reversed_from=10**9, noise=0.001):
-    """A coil of 3 ohm and 9 mH under a square wave, Euler's steps; from one sample on its current sensor is connected the wrong way round."""
+def recording(reversed_from=10**9, noise=0.001, warm_from=10**9):
+    """A coil of 3 ohm and 9 mH under a square wave, Euler's steps; from one sample on its current sensor is connected the wrong way round, or its
+    resistance is 6 ohm."""
     random.seed(7)
     i, rows = 4.0, ["t [s],v [V],i [A]"]
     for k in range(1500):
         v = 12.0 + 6.0 * (k // 40 % 2)
         shown = i + noise * random.gauss(0, 1)
         rows.append(f"{k * 1e-4:.4f},{v!r},{-shown if k >= reversed_from else shown!r}")
-        i += 1e-4 * (v - 3.0 * i) / 9e-3
+        i += 1e-4 * (v - (6.0 if k >= warm_from else 3.0) * i) / 9e-3
     return "\n".join(rows) + "\n"
 
 
@@ -52,6 +53,26 @@ class ReplayDoubts(CommandLine):
         self.assertIn(f"{status['singular']} samples are singular: {status['singular']} since rows depend on each other", note(err))
         _, err = self.said(RL, recording())
         self.assertIsNone(note(err))
+
+    def test_what_the_model_misses_shows_in_the_scatter(self):
+        """Declared noise of 1 mA, and it is that: estimates of the right model scatter by about one deviation, and nothing is said. A resistance that
+        doubles half way is a step of 3 ohm, hundreds of deviations."""
+        noisy = RL.replace('i = { unit = "A" }', 'i = { unit = "A", noise = 0.001 }')
+        _, err = self.said(noisy, recording())
+        self.assertNotIn("scatter", err)
+        _, err = self.said(noisy, recording(warm_from=700))
+        self.assertRegex(err, r"r.csv: note: estimates scatter over the recording by more than their standard deviations: R by [1-9]\d\d, ")
+        _, err = self.said(RL, recording(warm_from=700))   # no noise declared: no deviations
+        self.assertNotIn("scatter", err)
+
+    def test_what_is_hardly_told_from_zero(self):
+        """A coil of 3 ohm whose current is 1 A +- 0.9 A of noise: R has no digit, and deviation_limit asks the unknowns alone."""
+        noisy = RL.replace('i = { unit = "A" }', 'i = { unit = "A", noise = 0.9 }') + "deviation_limit = 100\n"
+        status, err = self.said(noisy, recording(noise=0.9))
+        self.assertGreater(status["ok"], 0)
+        self.assertRegex(err, r"the last estimate of [RL] is [012]\.?\d* of its standard deviations: hardly told from zero")
+        _, err = self.said(noisy.replace("0.9", "0.001"), recording())
+        self.assertNotIn("hardly told", err)
 
 
 if __name__ == "__main__":

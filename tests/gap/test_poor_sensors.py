@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sensors that are no good: each gives a verdict that claims nothing false. Each way to spoil one, on one recording of two; the rest is in test_poor_sensors_long.py."""
+"""Sensors that are no good: each gives a verdict that claims nothing false. One of each kind; the rest is in test_poor_sensors_long.py."""
 import unittest
 
 from poor import I, Poor, changed, clean

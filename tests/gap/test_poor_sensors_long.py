@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sensors that are no good, each way to spoil one on the recording that test_poor_sensors.py leaves out."""
+"""Sensors that are no good, each way to spoil one on both recordings."""
 import unittest
 
 from poor import Poor
@@ -7,7 +7,7 @@ from spoilt_sensors import SpoiltSensors
 
 
 class PoorSensors(SpoiltSensors, Poor):
-    TURN = 1
+    LONG = True
 
 
 if __name__ == "__main__":

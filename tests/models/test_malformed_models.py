@@ -408,6 +408,7 @@ VALUES = [
 
 NAMES = [
     ("C++ keyword", declared("▸double"), "C++ keyword"),
+    ("C++ keyword that a formula uses", coil("i = {", "▸class = {").replace("der(i)", "der(class)").replace("R*i", "R*class"), "C++ keyword"),
     ("newer C++ keyword", declared("▸co_await"), "C++ keyword"),
     ("alternative spelling of C++", declared("▸xor"), "C++ keyword"),
     ("two underscores", declared("▸k__p"), "reserved"),

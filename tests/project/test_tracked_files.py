@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every tracked file names its licence, the right one for its folder, and none names a path of the machine it was written on."""
+"""Every tracked file names its licence, the right one for its folder; none names a path of the machine it was written on, or holds a merge's marks."""
 import subprocess
 import unittest
 
@@ -33,6 +33,10 @@ class TrackedFiles(unittest.TestCase):
         beside = SOURCE.parent if len(SOURCE.parts) > 2 else SOURCE  # "/" would be in every file
         here = f"{beside}/".encode()
         self.assertEqual([str(file) for file in self.files if here in file.read_bytes()], [])
+
+    def test_none_holds_the_marks_of_a_merge(self):
+        marks = (b"\n<<<<<<" + b"< ", b"\n>>>>>>" + b"> ")   # in two, for this file is tracked too
+        self.assertEqual([str(file) for file in self.files if any(mark in file.read_bytes() for mark in marks)], [])
 
 
 if __name__ == "__main__":

@@ -83,11 +83,12 @@ inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S
 /// The same with the sum of absolute values behind it.
 template <class S>
 inline void add_functional(const RowSet<S>& set, const Functional& f, S value, S size, RowSums<S> to) noexcept {
-    for (int i = f.first_term; i < f.first_term + f.terms; ++i) {
-        const Term<S>& term = set.terms[i];
-        const int entry = term.row * (set.unknowns + 1) + term.column;
-        to.matrix[entry] += term.factor * value;
-        to.size[entry] += std::abs(term.factor) * size;
+    const int columns = set.unknowns + 1;
+    const Term<S>* term = set.terms.data + f.first_term;
+    for (const Term<S>* const end = term + f.terms; term != end; ++term) {
+        const int entry = term->row * columns + term->column;
+        to.matrix[entry] += term->factor * value;
+        to.size[entry] += std::abs(term->factor) * size;
     }
 }
 
