@@ -36,7 +36,7 @@ namespace generated {
 /// calls estimate(): an estimate() that more than 3 pushes overtake returns the one before. reset() needs both at rest.
 /// Cost: 1553 multiply-adds in push(), 0 in estimate(), besides one solve of 2 x 8. The solve finds the real
 /// roots of polynomials, 9595 multiply-adds and divisions at most, with 1216 bytes of stack.
-/// uncertainty(), outside that budget: up to 3453 multiply-adds, 5536 bytes of stack.
+/// uncertainty(), outside that budget: up to 3466 multiply-adds, 5536 bytes of stack.
 /// Memory: 10432 bytes an instance, 8 bytes of tables.
 class PmsmSensorless {
 public:
