@@ -119,6 +119,11 @@ TEST_CASE("sensorless: what is missing is named") {
     for (std::size_t k = 20; k < 24; ++k) points.means.insert(points.means.end(), {all[k].omega, all[k].v_f, all[k].v_g, all[k].i_f, all[k].i_g});
     CHECK(lab::what_is_missing(plan, points, false) == "not identifiable from these data: needs a second value of omega_r, the same at all of 4 operating points");
     CHECK_FALSE(lab::what_is_missing(plan, points, true));
+    points.means.clear();   // one current, errors of 30 mA: the power still tells R and friction, the voltages do not tell L from K
+    for (const OperatingPoint& p : noisy(at_one_current(all, 2), 1)) points.means.insert(points.means.end(), {p.omega, p.v_f, p.v_g, p.i_f, p.i_g});
+    const std::string text = lab::what_is_missing(plan, points, false).value_or("");
+    INFO(text);
+    CHECK(text.find("22 operating points do not tell L, K apart by more than what their means are uncertain by") != std::string::npos);
 }
 
 TEST_CASE("sensorless: a drifting block and an unmarked one are no operating points") {
