@@ -12,6 +12,7 @@
 #include "lab/judge.hpp"
 #include "lab/locate.hpp"
 #include "lab/noise.hpp"
+#include "lab/remainder.hpp"
 #include "lab/selection.hpp"
 #include "lab/variant.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double confirming_tolerance = 1e-8;
 constexpr double rows_that_see = 2.0;   ///< residual of the nominal model over noise, from which on rows may overrule a long run
+constexpr double nothing_is_left = 1.01;   ///< gap that no law of a fiftieth of the error hides in
 
 std::vector<NamedParameter> parameters(const Variant& v) {
     std::vector<NamedParameter> out;
@@ -144,10 +146,18 @@ std::vector<std::string> untried(const Workbench& bench) {
         if (why.empty() || why.starts_with("unknown key")) without_place.push_back(effect);
         else out.push_back(fmt::format("{} was not tried, since the model with it added cannot be estimated: {}", effect, why));
     }
+    for (const auto& [effect, equation] : bench.refused()) out.push_back(fmt::format("{} was not tried in '{}': it is no finite number at some samples of the recording", effect, equation));
     if (!without_place.empty()) {
         out.push_back(fmt::format("not tried, for the model file leaves no place for what they bring: {}; write [parameters], [constants] and [signals] as sections with a line for each entry", fmt::join(without_place, ", ")));
     }
     return out;
+}
+
+/// What a name leaves, or the model as it is, that no noise makes; known floors alone tell.
+std::optional<Remainder> left_beside(Workbench& bench, const Variant& nominal, const Variant& best) {
+    if (bench.yardstick() != Yardstick::free_run || guesses_noise(nominal.model, nominal.bench) || best.score.gap() <= nothing_is_left) return std::nullopt;
+    bench.begin_check();
+    return remainder(bench, best);
 }
 
 /// Takes back what was named. doubts: of the nominal model alone.
@@ -218,12 +228,22 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     }
     if (!names_something(out.verdict) && guesses_noise(nominal->model, nominal->bench)) out.verdict = judge(bench, *nominal, selection, Floor::a_guess);
 
+    std::optional<Remainder> rest;
+    if (names_something(out.verdict)) rest = left_beside(bench, *nominal, selection.best);
+    else if (out.verdict == Verdict::none) rest = left_beside(bench, *nominal, *nominal);
+    const bool beside_a_name = rest && names_something(out.verdict);
+    if (rest) out.verdict = Verdict::unknown;
+
     if (progress) progress("confirm", 0.9);
     bench.refine(*nominal);
     if (!selection.best.amendments.empty()) bench.refine(selection.best);
     const auto all_doubts = [&] {
         std::vector<std::string> all = doubts(bench, *nominal, selection, out.verdict);
         for (const std::string& doubt : untried(bench)) all.push_back(doubt);
+        if (rest) {
+            const std::string before = beside_a_name ? selection.best.amendments.back().effect + " takes most of the gap, but" : "the model is near the noise, but";
+            all.push_back(fmt::format("{} what is left in '{}' still follows {}: the law that is missing is another one", before, rest->equation, rest->term));
+        }
         return all;
     };
     out.doubts = all_doubts();

@@ -18,14 +18,8 @@ namespace {
 
 constexpr double most_of_it = 0.6;            ///< error against the nominal model's, for a name far from the floor
 constexpr double too_far_for_noise = 2.0;     ///< gap over floor beyond which it takes more than the process's own noise
-constexpr double share_of_white = 0.7;        ///< of the rows, that count as independent ones: autocorrelation of noise alone
 constexpr double no_noise = 50;               ///< F statistic of the weak form that noise does not reach
 constexpr double near_enough = 0.05;          ///< of the driving side of an equation: a residual that an engineer would be glad of
-
-/// True when every error is as rough as a sensor's noise: then it is noise, however little was declared.
-bool white(const Score& score) {
-    return std::all_of(score.independent.begin(), score.independent.end(), [&](const double& n) { return n > share_of_white * score.rows[static_cast<std::size_t>(&n - score.independent.data())]; });
-}
 
 /// The equations of motion whose rows cannot be formed, for a signal of theirs is not measured.
 std::vector<std::string> unseen(const Variant& v) {
@@ -42,11 +36,11 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     const Variant& best = selection.best;
     if (nominal.score.gap() <= at_the_floor) return Verdict::none;
     const bool spoken_for = std::any_of(selection.evidence.begin(), selection.evidence.end(), [](const Evidence& e) { return e.strength > no_noise; });
-    const bool noise_alone = nominal.score.gap() <= too_far_for_noise || white(nominal.score);
+    const bool noise_alone = nominal.score.gap() <= too_far_for_noise || nominal.score.white();
     // Where no equation has rows nobody can look for a shape in them: then only an error that is white has none.
     bool has_rows = false;
     for (std::size_t e = 0; e < nominal.model.equations.size(); ++e) has_rows = has_rows || has_weak_form(nominal.model, nominal.bench, e);
-    const bool shape_is_hidden = !has_rows && !white(nominal.score);
+    const bool shape_is_hidden = !has_rows && !nominal.score.white();
     const auto nothing = [&] { return spoken_for || selection.cut_short || !noise_alone || shape_is_hidden || structured(bench, nominal) ? Verdict::unknown : Verdict::none; };
     if (best.amendments.empty()) return nothing();
     const double left = best.score.nrmse / nominal.score.nrmse;
@@ -54,7 +48,7 @@ Verdict judge(const Workbench& bench, const Variant& nominal, const Selection& s
     if (bench.yardstick() == Yardstick::rows) {   // real machines: what is left is never noise alone
         if (left > most_of_it && best.score.nrmse > near_enough) return nothing();
     } else if (best.score.gap() > far_from_the_floor && !(floor == Floor::a_guess && left <= most_of_it)) {
-        if ((best.score.gap() > too_far_for_noise && !white(best.score)) || structured(bench, best)) return Verdict::unknown;
+        if ((best.score.gap() > too_far_for_noise && !best.score.white()) || structured(bench, best)) return Verdict::unknown;
         if (left > most_of_it) return nothing();
     }
     return selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
@@ -71,7 +65,7 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         if (!declares_noise(signal)) out.push_back(fmt::format("'{}' declares no noise: {:.3g} {} is taken from its roughness, and what is called a gap hangs on it", signal.name, noise[s], signal.unit));
         if (bench.yardstick() != Yardstick::free_run || verdict == Verdict::unknown) continue;
         const double over = best.score.error[o] / best.score.floor[o];
-        if (over > too_far_for_noise && white(best.score)) out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, over));
+        if (over > too_far_for_noise && best.score.white()) out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, over));
         else if (over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
     }
     for (std::size_t r = 0; r < bench.recordings(); ++r) {

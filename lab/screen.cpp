@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "lab/golden_section.hpp"
 #include "lab/largest_size.hpp"
@@ -29,11 +30,12 @@ constexpr double least_to_sharpen = 10;           ///< F statistic from which on
 constexpr std::size_t most_scanned_by_run = 16;
 constexpr double small_change = 0.02;             ///< of the outputs, that a probe of a parameter makes
 constexpr int most_probes = 4;
+constexpr Eigen::Index stretches_of_a_run = 32;   ///< by which a share is sure or not: chosen, some hundred samples each
 
 /// The weak residuals of the model as it is, by equation and window length: every candidate is compared with them.
 class Screen {
 public:
-    Screen(const Workbench& bench, const Variant& base) : bench_(bench), base_(base), measured_(base.bench.measured.size(), true) {
+    Screen(Workbench& bench, const Variant& base) : bench_(bench), base_(base), measured_(base.bench.measured.size(), true) {
         for (std::size_t r = 0; r < bench.recordings(); ++r) {
             recorded_.push_back(bench_of(base, r));
             for (std::size_t s = 0; s < measured_.size(); ++s) measured_[s] = measured_[s] && !recorded_[r].measured[s].empty();
@@ -143,6 +145,11 @@ private:
                     least = -1;
                     break;
                 }
+                if (with->left_out > before->left_out) {   // rows that lack what those of the others have cannot be compared
+                    bench_.refuse(binding.effect->name, where);
+                    out.strength = -1;
+                    return out;
+                }
                 const WeakFit after = weak_fit(*with, start);
                 if (input_size(*with, after.parameters) < least_driven * before->input) {   // it takes the place of what drives the machine
                     least = -1;
@@ -236,6 +243,7 @@ private:
         WeakFit fit;
         std::size_t terms;
         double input;
+        std::size_t left_out;
     };
 
     const std::optional<Before>& without(const std::string& equation, int intervals) {
@@ -246,12 +254,12 @@ private:
         const auto form = weak_form(base_.model, bench_.stretches(base_, &Parts::fitted), equation_index(base_.model, equation), intervals);
         if (form) {
             const WeakFit fit = weak_fit(*form, base_.fit.parameters);
-            out = Before{fit, form->coefficients.size(), input_size(*form, fit.parameters)};
+            out = Before{fit, form->coefficients.size(), input_size(*form, fit.parameters), form->left_out};
         }
         return before_.emplace(key, std::move(out)).first->second;
     }
 
-    const Workbench& bench_;
+    Workbench& bench_;
     const Variant& base_;
     std::vector<Bench> recorded_;        ///< of the base, with time, by recording
     std::vector<BenchRows> with_time_;
@@ -314,9 +322,23 @@ private:
             value += move[static_cast<Eigen::Index>(k)] * sizes[k];
             if (added[k]->min && value < *added[k]->min) return;
         }
-        c.share = 1 - (left_ + slopes * move).squaredNorm() / left_.squaredNorm();
+        const Eigen::VectorXd rest = left_ + slopes * move;
+        c.share = 1 - rest.squaredNorm() / left_.squaredNorm();
+        const double scatter = slopes.cols() == 1 ? squared_scatter(slopes.col(0), rest) : 0;
+        if (scatter > 0) c.sureness = std::pow(slopes.col(0).dot(left_), 2) / scatter;
         if (c.strength > 0) return;
         c.start = at.parameters;
+    }
+
+    /// How far the sum of a slope times the rest of the error scatters, by its sums over stretches: what lasts within one counts as it does.
+    static double squared_scatter(const Eigen::VectorXd& slope, const Eigen::VectorXd& rest) {
+        double squares = 0;
+        for (Eigen::Index k = 0; k < stretches_of_a_run; ++k) {
+            const Eigen::Index from = k * rest.size() / stretches_of_a_run;
+            const Eigen::Index length = (k + 1) * rest.size() / stretches_of_a_run - from;
+            squares += std::pow(slope.segment(from, length).dot(rest.segment(from, length)), 2);
+        }
+        return squares;
     }
 
     /// An effect of a scanned number alone: what it takes where it is, or would take as far along as suits it, since the model's parameters give
@@ -462,6 +484,22 @@ std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::
         else ++taken;
         out.push_back(std::move(c));
     }
+    return out;
+}
+
+std::vector<Candidate> weighed_by_run(Workbench& bench, const Variant& base, const std::vector<Effect>& effects) {
+    Screen screen(bench, base);
+    std::vector<Candidate> out;
+    std::set<std::string> known;
+    for (const Effect& effect : effects) {
+        for (Candidate& c : screen.of(effect)) {
+            const Amendment a = amendment(c.binding, base.model, c.scan);
+            if (known.insert(place(a, base.whole) + change(a)).second) out.push_back(std::move(c));
+        }
+    }
+    std::stable_sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
+    const Slope slope(bench, base);
+    for (Candidate& c : out) if (!bench.used_up()) slope.weigh(c);
     return out;
 }
 

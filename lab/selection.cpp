@@ -267,7 +267,9 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         const bool to_the_floor = ahead || (!out.best.amendments.empty() && bench.yardstick() == Yardstick::free_run && !guessed);
         // A run that drifts on noise of the process is one sample, however long: some effect lies on its way.
         const double needed = named.strength > 0 && named.strength < rows_of_chance ? gain_against_rows : gain_by_chance;
-        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && named.strength < rows_of_no_chance && log_gain(top.score, out.best.score) < needed;
+        // None lies on all of it: noise of the process stays when an effect has taken its part.
+        const bool takes_all = out.best.score.gap() > far_from_the_floor && top.score.gap() <= at_the_floor && top.score.white();
+        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && !takes_all && named.strength < rows_of_no_chance && log_gain(top.score, out.best.score) < needed;
         if (by_chance || !worth_it(top.score, out.best.score, gain) || (to_the_floor && top.score.gap() > far_from_the_floor)) {
             if (ahead) break;
             ahead = true;

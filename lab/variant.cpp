@@ -30,6 +30,7 @@ constexpr double hopeless = 0.3;                ///< nrmse of a fit from which o
 constexpr std::size_t rows_of_an_undriven_run = 4000;
 constexpr double lasting = 0.3;                 ///< share of a disturbed start that is still there a third of the way on: it does not fade
 constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations, shorter where they would be too few
+constexpr double share_of_white = 0.7;          ///< of the rows, that count as independent ones: autocorrelation of noise alone
 constexpr std::size_t least_windows = 100;      ///< half overlapping, that score an equation
 
 void names_in(const formula::Formula& f, std::set<std::string>& out) {
@@ -114,6 +115,11 @@ double Score::gap() const {
         squares += std::pow(error[o] / floor[o], 2) / static_cast<double>(error.size());
     }
     return std::sqrt(squares);
+}
+
+bool Score::white() const {
+    for (std::size_t o = 0; o < rows.size(); ++o) if (!(independent[o] > share_of_white * rows[o])) return false;
+    return true;
 }
 
 std::optional<Parts> parts_of(const Recording& recording, const std::optional<std::pair<double, double>>& train, const std::optional<std::pair<double, double>>& test, Diagnostics& diagnostics) {
@@ -282,6 +288,8 @@ void Workbench::begin_search() {
     effort_.limit = effort_.spent + effort_of_a_search;
     cut_ = false;
 }
+
+void Workbench::begin_check() { effort_.limit = effort_.spent + effort_of_a_last_fit; }
 
 void Workbench::refine(Variant& v) {
     effort_.limit = effort_.spent + effort_of_a_last_fit;

@@ -44,6 +44,8 @@ struct Score {
 
     /// Error over floor, rms over outputs or equations; infinite where a floor is zero.
     double gap() const;
+    /// True when every error is as rough as a sensor's noise: then it is noise, however little was declared.
+    bool white() const;
 };
 
 constexpr std::size_t score_blocks = 16;
@@ -88,6 +90,8 @@ public:
 
     /// Runs and fits of a search share an effort, counted from here; once it is used up what stands is the answer.
     void begin_search();
+    /// A look at what was found costs no more than its last fit.
+    void begin_check();
 
     /// `const OneOfMany share(bench);` while it lives no more than a share of the search's effort is spent: one candidate that is stiff must
     /// not cost the others their turn. The bench remembers a candidate that came to the end of its share: what it scored says little.
@@ -127,6 +131,10 @@ public:
     /// Effects whose amended text was no model, and why: nothing is known of them.
     const std::map<std::string, std::string>& unwritten() const { return unwritten_; }
 
+    /// An effect that is no finite number everywhere in the recording, and the equation it would have entered.
+    void refuse(const std::string& effect, const std::string& equation) { refused_.emplace(effect, equation); }
+    const std::map<std::string, std::string>& refused() const { return refused_; }
+
     std::size_t recordings() const { return trials_.size(); }
     const Parts& parts(std::size_t recording = 0) const { return trials_[recording].parts; }
     const Recording& recording(std::size_t k = 0) const { return *trials_[k].recording; }
@@ -153,6 +161,7 @@ private:
     std::vector<Trial> trials_;
     std::set<std::string> idle_;
     std::map<std::string, std::string> unwritten_;
+    std::map<std::string, std::string> refused_;
     Yardstick yardstick_ = Yardstick::free_run;
     Effort effort_;
     bool cut_ = false;   ///< some candidate came to the end of its share

@@ -31,7 +31,7 @@ std::vector<model::Delay> delays_of(const model::Model& model, const equation::O
     return out;
 }
 
-/// Every product of the form, sample by sample; delayed forms are one sample late and start at the second row.
+/// Every product of the form, sample by sample, not finite where the product is none; delayed forms are one sample late and start at the second row.
 std::vector<std::vector<double>> products(const model::Model& model, const Bench& bench, const equation::OperatorForm& form, Rows rows) {
     TapeInputs inputs;
     for (std::size_t s = 0; s < model.signals.size(); ++s) inputs.signal.push_back(static_cast<int>(s));
@@ -71,7 +71,7 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
         }
         if (!form.delayed || row > rows.begin) {
             plan::evaluate(tape, here.data(), previous.data(), derivative.data(), values.data(), results.data());
-            for (std::size_t k = 0; k < out.size(); ++k) out[k].push_back(std::isfinite(results[k]) ? results[k] : 0.0);
+            for (std::size_t k = 0; k < out.size(); ++k) out[k].push_back(results[k]);
         }
         previous = here;
     }
@@ -192,6 +192,11 @@ std::optional<WeakForm> weak_form(const model::Model& model, const Bench& bench,
         out.driven = out.driven || is_constant(term.coefficient);
         out.of_input.push_back(has_input(model, *form, term));
     }
+    for (Eigen::Index w = 0; w < out.columns.rows(); ++w) {
+        if (out.columns.row(w).allFinite()) continue;
+        out.columns.row(w).setZero();
+        ++out.left_out;
+    }
     return out;
 }
 
@@ -207,6 +212,7 @@ std::optional<WeakForm> weak_form(const model::Model& model, const std::vector<B
         const Eigen::Index above = out->columns.rows();
         out->columns.conservativeResize(above + form->columns.rows(), Eigen::NoChange);
         out->columns.bottomRows(form->columns.rows()) = form->columns;
+        out->left_out += form->left_out;
     }
     if (out && stretches.size() > 1) out->centre.clear();
     return out;
@@ -230,7 +236,7 @@ double weak_noise(const model::Model& model, const Bench& bench, std::size_t equ
                 const std::size_t row = w * windows.stride + j;
                 double change = 0;
                 for (std::size_t k = 0; k < form->terms.size(); ++k) change += value_of(form->terms[k].coefficient, parameters) * weights[k][j] * (beside[k][row] - series[k][row]);
-                variance += change * change;
+                if (std::isfinite(change)) variance += change * change;
             }
         }
     }

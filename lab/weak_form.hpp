@@ -20,6 +20,7 @@ struct WeakForm {
     bool driven;                              ///< some term has a known coefficient
     std::vector<bool> of_input;               ///< by term: a signal that no equation moves stands in it
     std::vector<std::size_t> centre;          ///< by window: the sample in its middle
+    std::size_t left_out = 0;                 ///< windows in which a product is no finite number: rows of zeros, which say nothing
 };
 
 /// Window lengths, in intervals, that are worth trying on so many rows: noise wants long windows, fast dynamics short ones.

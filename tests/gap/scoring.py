@@ -84,7 +84,7 @@ def parameter_error(found, answer, aliases):
     worst = None
     for truth, choices in zip(answer["effects"], accepted(answer, aliases)):
         effect = next((e for e in found["effects"] if e["name"] in choices), None)
-        if effect is None or not effect["parameters"]:
+        if effect is None or not effect["parameters"] or not truth["params"]:
             return None
         values = [p["value"] for p in effect["parameters"]]
         true = list(truth["params"].values())

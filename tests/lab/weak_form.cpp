@@ -94,6 +94,26 @@ TEST_CASE("weak form: none where a signal is not measured, or the stretch is sho
     CHECK_FALSE(lab::has_weak_form(unmeasured.model, *bench, 0));
 }
 
+TEST_CASE("weak form: windows in which a product is no finite number say nothing, the others stay as they are") {
+    const std::string rooted = std::string(sliding).replace(std::string(sliding).find("- d*v"), 5, "- d*sqrt(v)");
+    Scene scene(rooted.c_str());
+    const auto dips = [](double t) { return t > 0.55 && t < 0.56 ? -0.1 : 2 + std::sin(5 * t); };   // 10 samples, of 2001
+    const auto bench = lab::bench(scene.model, scene.recorded(samples, {{"F", force}, {"v", dips}}), scene.diagnostics);
+    const auto whole = lab::bench(scene.model, scene.recorded(samples, {{"F", force}, {"v", [](double t) { return 2 + std::sin(5 * t); }}}), scene.diagnostics);
+    REQUIRE(bench);
+    REQUIRE(whole);
+    const auto form = lab::weak_form(scene.model, *bench, 0, Rows{0, samples}, 100);
+    const auto plain = lab::weak_form(scene.model, *whole, 0, Rows{0, samples}, 100);
+    REQUIRE(form);
+    REQUIRE(plain);
+    CHECK(plain->left_out == 0);
+    CHECK(form->left_out == 2);   // windows of 101 samples, one every 50: those that begin at 500 and 550, less the one sample
+    Eigen::Index alike = 0;
+    for (Eigen::Index w = 0; w < form->columns.rows(); ++w) alike += form->columns.row(w) == plain->columns.row(w) ? 1 : 0;
+    CHECK(alike == form->columns.rows() - 2);
+    CHECK(form->columns.allFinite());
+}
+
 TEST_CASE("weak form: a parameter that no row sees has no finite deviation") {
     const Slide still([](double) { return 0.0; }, [](double) { return 0.0; });
     const lab::WeakEstimate e = lab::weak_estimate(still.scene.model, {{&still.bench, Rows{0, samples}}}, 200, {1.0, 1.0});
