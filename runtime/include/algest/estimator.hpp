@@ -17,6 +17,8 @@
 #include "algest/noise.hpp"
 #include "algest/noise_gram.hpp"
 #include "algest/normalised_rows.hpp"
+#include "algest/point_noise.hpp"
+#include "algest/point_uncertainty.hpp"
 #include "algest/ratio_filter.hpp"
 #include "algest/rows.hpp"
 #include "algest/solve_gram.hpp"
@@ -62,6 +64,7 @@ struct Blueprint {
                                    ///< every combination of its unknowns by this many times the square of what noise puts there; 0: not asked
     std::uint16_t output = 0;      ///< normalised rows: the window signal that noise enters by
     S output_noise = S(0);         ///< its declared standard deviation
+    PointRows points = {};         ///< least_squares and elimination, with a margin over noise: the rows of an operating point
 
     constexpr int needed() const noexcept { return shortest > 0 ? shortest : rows.samples; }
 };
@@ -74,27 +77,30 @@ constexpr int published_slots = 4;
 /// Samples beyond one window that rings must keep: estimate() reads windows where the rows of one instant are solved or a perturbation
 /// is asked for; uncertainty() reads all windows of S(t).
 constexpr int kept_samples(Solve solve, int instants, bool uncertain, bool perturbation) noexcept {
-    return (solve == Solve::square || uncertain || perturbation ? spare_samples : 0) + (solve == Solve::robust && uncertain ? instants - 1 : 0);
+    return (solve == Solve::square || (uncertain && solve == Solve::robust) || perturbation ? spare_samples : 0) + (solve == Solve::robust && uncertain ? instants - 1 : 0);
 }
 constexpr int ring_length(int samples, int kept) noexcept { return samples + kept; }
-/// above_noise: with a margin over noise, whose Gram matrix stands behind the triangle.
-constexpr int sum_scalars(Solve solve, int unknowns, int instants, bool above_noise = false) noexcept {
-    return solve == Solve::square   ? 1
-           : solve == Solve::robust ? gram_scalars(unknowns, instants)
-                                    : triangle_scalars(unknowns) + (above_noise ? packed_size(unknowns) : 0);
+constexpr int sum_scalars(Solve solve, int unknowns, int instants) noexcept {
+    return solve == Solve::square ? 1 : solve == Solve::robust ? gram_scalars(unknowns, instants) : triangle_scalars(unknowns);
 }
-constexpr int published_scalars(Solve solve, int unknowns, bool above_noise = false) noexcept {
-    return solve == Solve::square ? 1 : published_slots * (packed_size(unknowns + 1) + (above_noise ? packed_size(unknowns) : 0));
+constexpr int published_scalars(Solve solve, int unknowns) noexcept { return solve == Solve::square ? 1 : published_slots * packed_size(unknowns + 1); }
+/// The same of operating points with a margin over noise: the sums of add_point stand behind the triangle, and behind them the moments, which are not published.
+constexpr int sum_scalars(const PointRows& points, int unknowns) noexcept {
+    return triangle_scalars(unknowns) + point_noise_scalars(unknowns, points.groups) + point_moments(points);
+}
+constexpr int published_scalars(const PointRows& points, int unknowns) noexcept {
+    return published_slots * (triangle_scalars(unknowns) + point_noise_scalars(unknowns, points.groups));
 }
 /// The same where push publishes rows: those of the newest instant (square), and of the perturbation.
 constexpr int published_row_scalars(Solve solve, int rows, int unknowns, int perturbation_rows) noexcept {
     const int solved = solve == Solve::square ? row_entries(rows, unknowns) : packed_size(unknowns + 1);
     return published_slots * (solved + row_entries(perturbation_rows, unknowns));
 }
-/// Scalars of scratch that push needs. rows: of an instant; where push publishes rows, of the perturbation if they are more.
+/// Scalars of scratch that push needs; with operating points all_change_products more. rows: of an instant; where push publishes rows, of the perturbation if
+/// they are more.
 constexpr int push_scratch(int rows, int unknowns) noexcept { return 2 * row_entries(rows, unknowns); }
 /// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more, with a margin over noise
-/// above_noise_scratch. rows: of an instant, or of the perturbation if they are more.
+/// above_noise_scratch; of operating points with a margin point_scratch in all. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     int most = solve_rows_scratch(unknowns);
     if (solve_gram_scratch(unknowns) > most) most = solve_gram_scratch(unknowns);
@@ -102,8 +108,20 @@ constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     if (residual_factor_scratch(rows, unknowns) > most) most = residual_factor_scratch(rows, unknowns);
     return rows * (unknowns + 1) + packed_size(unknowns + 1) + rows * rows + most;
 }
-constexpr int above_noise_scratch(int unknowns) noexcept { return packed_size(unknowns) + unknowns * unknowns; }
-/// Scalars of scratch that uncertainty needs, and estimate with a deviation limit. instants: 0 unless robust.
+constexpr int above_noise_scratch(int unknowns, int groups = 0) noexcept {
+    return (groups == 0 ? packed_size(unknowns) : point_noise_scalars(unknowns, groups)) + unknowns * unknowns;
+}
+template <class S>
+constexpr int point_scratch(const Blueprint<S>& blueprint) noexcept {
+    const int n = blueprint.rows.unknowns;
+    return estimate_scratch(blueprint.rows.rows, n) + elimination_scratch(blueprint.elimination, true) + above_noise_scratch(n, blueprint.points.groups);
+}
+/// Of operating points, where uncertainty needs it, and estimate with a deviation limit.
+template <class S>
+constexpr int point_uncertainty_scratch(const Blueprint<S>& blueprint) noexcept {
+    return point_scratch(blueprint) + propagate_points_scratch(blueprint.elimination, blueprint.rows.unknowns);
+}
+/// Scalars of scratch that uncertainty needs of a square or robust solve, and estimate with a deviation limit. instants: 0 unless robust.
 constexpr int uncertainty_scratch(int rows, int unknowns, int instants) noexcept {
     return estimate_scratch(rows, unknowns) + node_count(instants) * rows * (2 * unknowns + 1) + unknowns * unknowns + packed_size(unknowns) +
            propagate_scratch(rows, unknowns);
@@ -165,7 +183,7 @@ constexpr int slot_scalars(const Blueprint<S>& blueprint) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const int perturbation = blueprint.perturbation.rows;
     if (blueprint.rows_published) return published_row_scalars(blueprint.solve, rows.rows, rows.unknowns, perturbation) / published_slots;
-    return published_scalars(Solve::least_squares, rows.unknowns, blueprint.margin_over_noise > S(0)) / published_slots;
+    return published_scalars(blueprint.points, rows.unknowns) / published_slots;
 }
 
 /// Drops what the windows and S(t) hold; the rows that least_squares absorbed so far stay.
@@ -200,10 +218,11 @@ inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noe
         p.absorbed = gram_is_full(p.gram, blueprint.solve_instants) ? 1U : 0U;
     } else {
         add_rows(memory.sums, matrix, rows.rows, rows.unknowns, blueprint.keep);
+        if (blueprint.points.groups > 0) add_residuals(blueprint.points, matrix, rows.unknowns, memory.sums + triangle_scalars(rows.unknowns));
         p.absorbed = 1;
     }
     S* const slot = next_slot(blueprint, memory);
-    const int size = packed_size(rows.unknowns + 1) + (blueprint.margin_over_noise > S(0) ? packed_size(rows.unknowns) : 0);
+    const int size = triangle_scalars(rows.unknowns) + point_noise_scalars(rows.unknowns, blueprint.points.groups);
     for (int k = 0; k < size; ++k) slot[k] = memory.sums[k];
     return slot + size;
 }
@@ -218,7 +237,7 @@ inline void reset(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     if (blueprint.ratio.used) restart_ratio(memory.ratio);
     if (blueprint.solve == Solve::robust) clear_gram(memory.sums, memory.progress->gram, blueprint.rows.unknowns);
     if (blueprint.solve == Solve::least_squares || blueprint.solve == Solve::elimination) {
-        const int size = sum_scalars(blueprint.solve, blueprint.rows.unknowns, 0, blueprint.margin_over_noise > S(0));
+        const int size = sum_scalars(blueprint.points, blueprint.rows.unknowns);
         for (int i = 0; i < size; ++i) memory.sums[i] = S(0);
     }
 }
@@ -245,8 +264,10 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
         S* const spare = scratch + row_entries(rows.rows, rows.unknowns);
         const WindowPosition window_at = newest(rows.samples, length, p.head);
         evaluate_rows(rows, memory.rings, window_at, scratch, spare);
-        if (blueprint.margin_over_noise > S(0) && all_finite(scratch, row_entries(rows.rows, rows.unknowns))) {
-            add_noise(rows, blueprint.noise, memory.rings, window_at, blueprint.keep, spare, memory.sums + triangle_scalars(rows.unknowns));
+        if (blueprint.points.groups > 0 && all_finite(scratch, row_entries(rows.rows, rows.unknowns))) {
+            S* const sums = memory.sums + triangle_scalars(rows.unknowns);
+            add_point(rows, blueprint.noise, blueprint.points, memory.rings, window_at, blueprint.keep, scratch, spare, sums,
+                      sums + point_noise_scalars(rows.unknowns, blueprint.points.groups));
         }
         (void)detail::absorb(blueprint, memory, scratch);
     }
@@ -267,6 +288,7 @@ struct Latest {
     bool current;
     Status status;
     S condition;   ///< of the scaled matrix that was solved; infinity unless status is ok or singular
+    S excess = S(1);   ///< operating points: times that the residuals are what the declared errors of the means explain
 };
 
 namespace detail {
@@ -278,7 +300,7 @@ struct EstimateScratch {
     S* sums;     ///< packed [P|Q]'[P|Q], or the triangle
     S* factor;   ///< what whitens
     S* work;     ///< of the solvers
-    S* noise;    ///< with a margin over noise: its packed Gram matrix, then what tests it; else nullptr
+    S* noise;    ///< with a margin over noise: its packed Gram matrix, or the sums of add_point, then what tests it; else nullptr
 };
 
 /// True where the rows see every unknown by more than the margin over noise; noise: its packed Gram matrix, square: n x n of scratch.
@@ -291,8 +313,8 @@ inline bool above_noise(const S* triangle, int unknowns, S margin, const S* nois
 }
 
 template <class S>
-inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch, bool margin) noexcept {
-    S* const matrix = margin ? scratch + above_noise_scratch(rows.unknowns) : scratch;
+inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch, bool margin, int groups = 0) noexcept {
+    S* const matrix = margin ? scratch + above_noise_scratch(rows.unknowns, groups) : scratch;
     S* const sums = matrix + rows.rows * (rows.unknowns + 1);
     S* const factor = sums + packed_size(rows.unknowns + 1);
     return {matrix, sums, factor, factor + rows.rows * rows.rows, margin ? scratch : nullptr};
@@ -392,6 +414,16 @@ template <class S>
     return true;
 }
 
+/// Covariance and, unless nullptr, bias of what was solved from operating points. scratch: point_uncertainty_scratch, its first part as the solve left it.
+/// The moments are read where push adds to them: what it began since the solve spoils them.
+template <class S>
+[[gnu::always_inline]] inline void propagate_all_points(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S excess, const S* solution, S* covariance, S* bias) noexcept {
+    const int n = blueprint.rows.unknowns;
+    const EstimateScratch<S> at = estimate_scratch_at(blueprint.rows, scratch, true, blueprint.points.groups);
+    const S* const moments = memory.sums + triangle_scalars(n) + point_noise_scalars(n, blueprint.points.groups);
+    propagate_points(blueprint.points, blueprint.elimination, at.sums, at.noise, moments, n, excess, solution, scratch + point_scratch(blueprint), covariance, bias);
+}
+
 /// The residuals of the perturbation's rows at `lumped`.
 template <class S>
 inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* out) noexcept {
@@ -409,7 +441,7 @@ inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, con
 /// True when no standard deviation exceeds the limit's part of its unknown, or of the size that it is expected to have.
 template <class S>
 inline bool certain_enough(const Blueprint<S>& blueprint, const S* covariance, const S* lumped) noexcept {
-    const int unknowns = blueprint.rows.unknowns;
+    const int unknowns = point_parameters(blueprint.elimination, blueprint.rows.unknowns);
     for (int u = 0; u < unknowns; ++u) {
         const S expected = blueprint.sizes.size > 0 ? blueprint.sizes[u] : S(0);
         const S most = blueprint.deviation_limit * larger(S(std::abs(lumped[u])), expected);
@@ -436,8 +468,10 @@ template <class S>
     const int n = rows.unknowns;
     const int size = packed_size(n + 1);
     const bool margin = blueprint.margin_over_noise > S(0);
-    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch, margin);
-    S* const square_of_noise = margin ? at.noise + packed_size(n) : nullptr;
+    const int groups = blueprint.points.groups;
+    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch, margin, groups);
+    S* const square_of_noise = margin ? at.noise + above_noise_scratch(n, groups) - n * n : nullptr;
+    S excess = S(1);
     Solved<S> solved = {false, none};
     bool beyond_noise = true;
     if (blueprint.solve == Solve::square) {
@@ -451,27 +485,35 @@ template <class S>
     } else {
         const S* const slot = memory.published + then.slot * slot_scalars(blueprint);
         for (int k = 0; k < size; ++k) at.sums[k] = slot[k];
-        for (int k = 0; margin && k < packed_size(n); ++k) at.noise[k] = slot[size + k];
+        for (int k = 0; k < point_noise_scalars(n, groups); ++k) at.noise[k] = slot[size + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
         if (blueprint.noise_floor.size > 0) beyond_noise = rises_above(at.sums, blueprint.noise_floor.data, n, at.work);
         solved = blueprint.solve == Solve::robust          ? solve_gram(at.sums, n, at.work, lumped)
                  : blueprint.solve == Solve::least_squares ? solve_triangle(at.sums, n, at.work, lumped)
-                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped, NoiseMargin<S>{at.noise, blueprint.margin_over_noise});
-        if (margin && blueprint.solve == Solve::least_squares) beyond_noise = above_noise(at.sums, n, blueprint.margin_over_noise, at.noise, square_of_noise);
+                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped, NoiseMargin<S>{at.noise, blueprint.margin_over_noise, &excess});
+        if (groups > 0 && blueprint.solve == Solve::least_squares && solved.regular) {
+            excess = residual_excess(at.noise[group_place(n, 0) + 1], expected_residuals(at.noise, n, 0, 0, n, lumped));
+            beyond_noise = above_noise(at.sums, n, blueprint.margin_over_noise * excess, at.noise, square_of_noise);
+        }
     }
     bool good = solved.regular && solved.condition <= blueprint.condition_limit && beyond_noise;
     if (filters) {   // what solve_gram leaves in its scratch: L and D, then the scales
         if (!good) filter_nothing(blueprint.ratio, memory.ratio, n);
         good = good && filter_ratio(blueprint.ratio, memory.ratio, at.work, n + 1, at.work + n * n, n, lumped);
     }
-    if (good && limited) {
+    if (good && limited && groups > 0) {
+        S* const covariance = scratch + point_uncertainty_scratch(blueprint);
+        propagate_all_points(blueprint, memory, scratch, excess, lumped, covariance, static_cast<S*>(nullptr));
+        if (pushes_since(*memory.progress, then) > 0U) return {false, Status::filling, none};
+        good = certain_enough(blueprint, covariance, lumped);
+    } else if (good && limited) {
         S* const covariance = scratch + uncertainty_scratch(rows.rows, n, blueprint.solve == Solve::robust ? blueprint.solve_instants : 0);
         good = propagate(blueprint, memory, then, scratch, lumped, covariance, static_cast<S*>(nullptr)) &&
                certain_enough(blueprint, covariance, lumped);
     }
     if (good && perturbed) perturbation_of(blueprint, memory, then, at.matrix, lumped, lumped + n);
     if ((limited || perturbed) && overtaken(blueprint, memory, then)) return {false, Status::filling, none};
-    return {true, good ? Status::ok : Status::singular, solved.condition};
+    return {true, good ? Status::ok : Status::singular, solved.condition, excess};
 }
 
 }  // namespace detail
@@ -492,13 +534,19 @@ template <class S>
 }
 
 /// Solves with the newest windows as estimate does (a ratio filter aside, which stays where it is), and says how noise moves the solution: its
-/// covariance (packed upper triangle) and bias (unknowns). Needs declared noise; square and robust. Written only with status ok.
-/// scratch: uncertainty_scratch. Cost: propagate_noise, and the rows of up to 32 instants. Never fails, fixed loops.
+/// covariance (packed upper triangle) and bias (unknowns; with an elimination of the parameters). Needs declared noise; square, robust and operating
+/// points. Written only with status ok. scratch: uncertainty_scratch; of operating points point_uncertainty_scratch. Cost: propagate_noise, and the rows of
+/// up to 32 instants; of operating points propagate_points_cost. Never fails, fixed loops.
 template <class S>
 [[gnu::always_inline]] inline Latest<S> uncertainty(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, S* covariance, S* bias) noexcept {
     Progress then;
     Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, true);
     if (!latest.current || latest.status != Status::ok) return latest;
+    if (blueprint.points.groups > 0) {
+        detail::propagate_all_points(blueprint, memory, scratch, latest.excess, lumped, covariance, bias);
+        if (detail::pushes_since(*memory.progress, then) > 0U) return {false, Status::filling, std::numeric_limits<S>::infinity()};
+        return latest;
+    }
     if (!detail::propagate(blueprint, memory, then, scratch, lumped, covariance, bias)) latest.status = Status::singular;
     if (detail::pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, std::numeric_limits<S>::infinity()};
     return latest;
