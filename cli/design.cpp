@@ -88,7 +88,10 @@ std::string design_text(const model::Model& model, const DesignOptions& options,
     std::string out = design.curve.empty() ? "" : curve_text(design);
     if (design.recommended) out += reference_text(model, design);
     out += design.recommended ? recommendation_text(model, design) : "no window gives an estimate on this recording that rises above its own scatter\n";
-    if (!design.reached && design.recommended) out += fmt::format("the accuracy {} is out of reach\n", percent(*options.accuracy));
+    if (!design.reached && design.recommended) {
+        out += options.accuracy ? fmt::format("the accuracy {} is out of reach\n", percent(*options.accuracy))
+                                : fmt::format("no window is of use: the least error is {}\n", percent(design.recommended->error));
+    }
     for (const std::string& text : design.missing) out += "missing: " + text + "\n";
     return out;
 }

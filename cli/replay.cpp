@@ -89,8 +89,11 @@ int replay(const ReplayOptions& options) {
     for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
 
     if (const auto lacks = what_it_lacks(options.model, options.recordings[0], *plan, *replay, summary)) note(*lacks);
-    if (options.json) print_json(replay_json(options.model, options.recordings[0], *plan, *replay, summary));
-    else print(replay_text(*plan, *replay, summary));
+    if (options.json) {
+        nlohmann::ordered_json answer = replay_json(options.model, options.recordings[0], *plan, *replay, summary);
+        answer["notes"] = notes_json(diagnostics);
+        print_json(answer);
+    } else print(replay_text(*plan, *replay, summary));
     return exit_done;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "generator/diagnostics.hpp"
 #include "generator/plan.hpp"
 #include "lab/replay.hpp"
 
@@ -15,6 +16,9 @@ namespace algest::cli {
 /// "missing": [text], ...}
 nlohmann::ordered_json replay_json(const std::string& model, const std::string& recording, const plan::Plan& plan, const lab::Replay& replay,
                                    const lab::ReplaySummary& summary);
+
+/// What was said beside the numbers, a sentence each: "notes" of that answer.
+nlohmann::ordered_json notes_json(const Diagnostics& diagnostics);
 
 /// What the data lack where operating points gave no answer, in words; empty: nothing.
 std::optional<std::string> what_is_missing(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary);

@@ -57,9 +57,28 @@ std::optional<std::string> what_lies_beyond(const model::Parameter& parameter, c
 }
 
 /// The last estimate, where its noise is most of it.
-std::optional<std::string> what_is_hardly_told(const std::string& parameter, const lab::ReplaySummary& summary, std::size_t p) {
-    if (!summary.last[p] || !summary.deviation[p] || !lab::hardly_told_from_zero(*summary.last[p], *summary.deviation[p])) return std::nullopt;
-    return fmt::format("the last estimate of {} is {:.2g} of its standard deviations: hardly told from zero, though rows and unknowns are ok", parameter, std::abs(*summary.last[p]) / *summary.deviation[p]);
+std::optional<std::string> what_is_hardly_told(const std::string& parameter, double last, double deviation) {
+    if (!lab::hardly_told_from_zero(last, deviation)) return std::nullopt;
+    return fmt::format("the last estimate of {} is {:.3g} with a standard deviation of {:.2g}: not even its sign is known, though the unknowns that it is made of are ok", parameter, last, deviation);
+}
+
+/// The last estimate, where it lies far from the others, by its own deviation and by theirs: the summary shows it, and a controller would take it.
+std::optional<std::string> what_stands_apart(const std::string& parameter, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t p) {
+    const double middle = *summary.median[p];
+    const double off = std::abs(*summary.last[p] - middle);
+    if (off <= lab::more_than_noise * *summary.deviation[p] || off <= lab::more_than_noise * lab::spread(replay, p)) return std::nullopt;
+    return fmt::format("the last estimate of {}, {:.4g}, lies {:.0f} of its standard deviations from the median of all, {:.4g}: a parameter or a load changed, or a sensor failed", parameter, *summary.last[p],
+                       off / *summary.deviation[p], middle);
+}
+
+/// Without declared noise ok does not know it: how many estimates lie more than half off the middle one.
+std::optional<std::string> what_no_noise_explains(const std::string& parameter, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t p, std::size_t ok) {
+    constexpr double a_few = 0.05;
+    const double middle = *summary.median[p];
+    std::size_t off = 0;
+    for (std::size_t k = 0; k < replay.samples(); ++k) off += replay.status[k] == Status::ok && !(std::abs(replay.parameter(k, p) - middle) <= 0.5 * std::abs(middle)) ? 1 : 0;
+    if (static_cast<double>(off) <= a_few * static_cast<double>(ok)) return std::nullopt;
+    return fmt::format("{} of {} ok estimates of {} lie more than half off their median, {:.4g}: no signal declares its noise, so that ok does not know it (noise = ... under [signals])", off, ok, parameter, middle);
 }
 
 /// Parameters whose estimates differ by more than noise from window to window.
@@ -70,8 +89,8 @@ std::optional<std::string> what_scatters(const plan::Plan& plan, const lab::Repl
         if (scatter && *scatter >= lab::more_than_noise) found += fmt::format("{}{} by {:.0f}", found.empty() ? "" : ", ", plan.parameters[p].name, *scatter);
     }
     if (found.empty()) return std::nullopt;
-    return fmt::format("estimates scatter over the recording by more than their standard deviations: {}; beside the declared noise they see a parameter that "
-                       "changes, what the model misses (algest discover), or how a signal is held between samples", found);
+    return fmt::format("estimates scatter over the recording by more than their standard deviations: {}; the sensors are noisier or coarser than declared, one failed, a parameter changes, "
+                       "the model misses something (algest discover), or a signal is held otherwise between samples", found);
 }
 
 /// What speaks against the estimates of each parameter.
@@ -84,7 +103,12 @@ void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Reco
         const std::string& name = plan.parameters[p].name;
         const int declared = model->parameter_index(name);
         if (declared >= 0) note(what_lies_beyond(model->parameters[static_cast<std::size_t>(declared)], replay, p, ok));
-        note(what_is_hardly_told(name, summary, p));
+        if (summary.deviation[p]) {
+            note(what_is_hardly_told(name, *summary.last[p], *summary.deviation[p]));
+            note(what_stands_apart(name, replay, summary, p));
+        } else if (!plan.uncertain() && plan.solve != plan::Solve::least_squares) {
+            note(what_no_noise_explains(name, replay, summary, p, ok));
+        }
     }
     note(what_scatters(plan, replay));
 }

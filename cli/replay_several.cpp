@@ -31,6 +31,7 @@ ordered_json answer(const ReplayOptions& options, const plan::Plan& plan, const 
         if (const auto lacks = what_it_lacks(options.model, file, plan, *replay, summary)) diagnostics.note(file, *lacks);
     }
     ordered_json out = replay ? replay_json(options.model, file, plan, *replay, summary) : ordered_json{{"recording", file}, {"error", errors_json(diagnostics)}};
+    if (replay) out["notes"] = notes_json(diagnostics);
     out["messages"] = ordered_json::array();
     for (const Diagnostic& d : diagnostics.sorted()) out["messages"].push_back(d.text());
     return out;

@@ -138,6 +138,20 @@ bool refuted(const Workbench& bench, const Variant& nominal, const Variant& amen
     return !after.error.empty() && !(after.nrmse < before.nrmse);
 }
 
+/// A sentence for every output that the test stretch misses by far, where the training stretch was met: what changed between the two.
+std::vector<std::string> changed_later(const std::vector<RecordingEvidence>& recordings) {
+    constexpr double far = 10.0;   // times the floor: a fit that meets one stretch and drifts over the next does so by a few; a sensor that fails, by tens
+    std::vector<std::string> out;
+    for (const RecordingEvidence& r : recordings) {
+        for (const OutputGap& o : r.outputs) {
+            if (!(o.floor > 0) || o.after <= far * o.floor) continue;
+            out.push_back(fmt::format("{}over the test stretch, from {:.4g} to {:.4g} s, '{}' is missed by {:.2g} times its noise, and was met before: a sensor failed or the machine changed, or what acts there does not act in the training stretch",
+                                      recordings.size() > 1 ? r.file + ": " : "", r.test_from_s, r.test_to_s, o.signal, o.after / o.floor));
+        }
+    }
+    return out;
+}
+
 /// A sentence for every reason why effects were left out.
 std::vector<std::string> untried(const Workbench& bench) {
     std::vector<std::string> out;
@@ -262,6 +276,11 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
         refute(out, all_doubts());
     }
     if (amended != nullptr && !nearer(out.recordings)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
+    if (out.verdict != Verdict::unknown && bench.yardstick() == Yardstick::free_run) {
+        const std::vector<std::string> later = changed_later(out.recordings);
+        out.doubts.insert(out.doubts.begin(), later.begin(), later.end());
+        if (out.verdict == Verdict::none && !later.empty()) out.verdict = Verdict::unknown;
+    }
     out.residuals = residuals(bench, *nominal, amended);
     out.where = locate(bench, *nominal, out.residuals, out.recordings[0].before);
     out.parameters_before = parameters(*nominal);

@@ -63,10 +63,11 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
         const std::size_t s = static_cast<std::size_t>(outputs[o]);
         const model::Signal& signal = nominal.model.signals[s];
         if (!declares_noise(signal)) out.push_back(fmt::format("'{}' declares no noise: {:.3g} {} is taken from its roughness, and what is called a gap hangs on it", signal.name, noise[s], signal.unit));
-        if (bench.yardstick() != Yardstick::free_run || verdict == Verdict::unknown) continue;
+        if (bench.yardstick() != Yardstick::free_run) continue;
         const double over = best.score.error[o] / best.score.floor[o];
-        if (over > too_far_for_noise && best.score.white()) out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, over));
-        else if (over > far_from_the_floor) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
+        const bool may_be_noise = best.score.white() && over > (verdict == Verdict::unknown ? far_from_the_floor : too_far_for_noise);
+        if (may_be_noise) out.push_back(fmt::format("'{}' misses by {:.3g} times its declared noise, without any shape: is the noise that it declares too small?", signal.name, over));
+        else if (over > far_from_the_floor && verdict != Verdict::unknown) out.push_back(fmt::format("'{}' is still {:.3g} times its noise away from the measurement: something else is missing, or the process itself is noisy", signal.name, over));
     }
     for (std::size_t r = 0; r < bench.recordings(); ++r) {
         const std::string where = bench.recordings() > 1 ? bench.recording(r).file + ": " : "";

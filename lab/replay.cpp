@@ -66,7 +66,8 @@ void run_deviations(const plan::Plan& plan, const std::vector<std::vector<double
     const auto last = std::find(replay.status.rbegin(), replay.status.rend(), Status::ok);
     if (last == replay.status.rend()) return;
     const std::size_t samples = static_cast<std::size_t>(replay.status.rend() - last);
-    const std::size_t stride = deviation_stride(samples, most);
+    const std::size_t stride = deviation_stride(static_cast<std::size_t>(std::count(replay.status.begin(), replay.status.end(), Status::ok)), most);
+    std::size_t ok = 0;
     replay.deviations.assign(replay.parameters.size(), std::numeric_limits<double>::quiet_NaN());
     replay.biases = replay.deviations;
     HostEstimator<S> estimator(plan);
@@ -74,8 +75,9 @@ void run_deviations(const plan::Plan& plan, const std::vector<std::vector<double
     for (std::size_t k = 0; k < samples; ++k) {
         for (std::size_t i = 0; i < inputs.size(); ++i) sample[i] = static_cast<S>(inputs[i][begin + k]);
         estimator.step(sample.data());
-        if (k + 1 != samples && (k % stride != 0 || most <= 1)) continue;
-        if (estimator.status() != Status::ok || estimator.uncertainty() != Status::ok) continue;
+        if (estimator.status() != Status::ok) continue;
+        const bool chosen = most > 1 && ok++ % stride == 0;
+        if (!(chosen || k + 1 == samples) || estimator.uncertainty() != Status::ok) continue;
         for (int p = 0; p < plan.estimated(); ++p) {
             const std::size_t place = k * replay.parameter_count + static_cast<std::size_t>(p);
             replay.deviations[place] = static_cast<double>(estimator.deviation()[static_cast<std::size_t>(p)]);
@@ -126,9 +128,9 @@ std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording,
                                                 : run<float>(plan, recording, inputs, rows, progress);
 }
 
-std::size_t deviation_stride(std::size_t samples, std::size_t most) {
+std::size_t deviation_stride(std::size_t ok, std::size_t most) {
     std::size_t stride = 1;
-    while (2 * stride * std::max<std::size_t>(most, 1) <= samples) stride *= 2;
+    while (2 * stride * std::max<std::size_t>(most, 1) <= ok) stride *= 2;
     return stride;
 }
 

@@ -60,8 +60,8 @@ std::optional<Replay> replay(const plan::Plan& plan, const Recording& recording,
 /// Cost: HostEstimator::step a sample, HostEstimator::uncertainty for each of them.
 void add_deviations(const plan::Plan& plan, const Recording& recording, std::size_t most, Replay& replay, const ProgressReport& progress = {});
 
-/// From one of those samples to the next, of `samples` up to the last ok one: a power of two, so that few of them are among many. Those lie at multiples.
-std::size_t deviation_stride(std::size_t samples, std::size_t most);
+/// From one of those samples to the next, counted in ok ones, of which there are `ok`: a power of two, so that few of them are among many.
+std::size_t deviation_stride(std::size_t ok, std::size_t most);
 
 /// Cost: samples * parameters.
 ReplaySummary summarise(const Replay& replay);

@@ -9,16 +9,29 @@
 
 namespace algest::lab {
 
+namespace {
+
+constexpr double normal = 1.4826;   // sd over the median of |error|: 1 / 0.6745, the normal distribution's third quartile
+
+}  // namespace
+
+double spread(const Replay& replay, std::size_t p) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < replay.samples(); ++k) if (replay.status[k] == Status::ok) values.push_back(replay.parameter(k, p));
+    const double middle = median(values).value_or(0.0);
+    for (double& v : values) v = std::abs(v - middle);
+    return normal * median(values).value_or(0.0);
+}
+
 std::optional<double> scatter_in_deviations(const Replay& replay, std::size_t p) {
     constexpr std::size_t fewest = 8;
-    constexpr double normal = 1.4826;   // sd over the median of |error|: 1 / 0.6745, the normal distribution's third quartile
     if (replay.deviations.empty()) return std::nullopt;
-    const auto last = std::find(replay.status.rbegin(), replay.status.rend(), Status::ok);
-    const std::size_t stride = deviation_stride(static_cast<std::size_t>(replay.status.rend() - last), deviations_for_scatter);
+    const std::size_t stride = deviation_stride(static_cast<std::size_t>(std::count(replay.status.begin(), replay.status.end(), Status::ok)), deviations_for_scatter);
+    std::size_t ok = 0;
     std::vector<std::size_t> looked_at;
     std::vector<double> values;
-    for (std::size_t k = 0; k < replay.samples(); k += stride) {
-        if (replay.status[k] != Status::ok || !(replay.deviation(k, p) > 0)) continue;
+    for (std::size_t k = 0; k < replay.samples(); ++k) {
+        if (replay.status[k] != Status::ok || ok++ % stride != 0 || !(replay.deviation(k, p) > 0)) continue;
         looked_at.push_back(k);
         values.push_back(replay.parameter(k, p));
     }

@@ -15,6 +15,9 @@ constexpr std::size_t deviations_for_scatter = 32;
 /// alike, which makes it smaller, not larger. The same whether deviations were added at few samples or at many. Cost: samples.
 std::optional<double> scatter_in_deviations(const Replay& replay, std::size_t p);
 
+/// Of the ok estimates of parameter p: the median distance from their median, times 1.48. Cost: samples.
+double spread(const Replay& replay, std::size_t p);
+
 /// Beyond this, something moves the estimates beside the declared noise. Chosen: five; with a motor's right model and its noise 1 is what comes, with dry
 /// friction left out 31 (tests/cli/test_replay_doubts.py has both sides).
 constexpr double more_than_noise = 5.0;

@@ -85,7 +85,7 @@ inline void polynomial_roots(const S* c, int degree, std::complex<S>* roots) noe
     const S radius = std::pow(std::abs(c[zeros] / c[degree]), S(1) / S(n));
     std::complex<S>* x = roots + zeros;
     // Not symmetric about the real axis, or a pair could not leave it.
-    for (int k = 0; k < n; ++k) x[k] = std::polar(radius, S(6.2831853) * S(k) / S(n) + S(0.4));
+    for (int k = 0; k < n; ++k) x[k] = radius * std::polar(S(1), S(6.2831853) * S(k) / S(n) + S(0.4));   // polar() takes no radius that is no number
     for (int step = 0; step < root_steps; ++step) {
         for (int k = 0; k < n; ++k) {
             std::complex<S> value = c[degree];
