@@ -67,7 +67,8 @@ HostEstimator<S>::HostEstimator(const plan::Plan& plan)
 
 template <class S>
 void HostEstimator<S>::reset() {
-    algest::reset(blueprint_.view(), memory());
+    if (plan_->points_above_noise()) algest::reset_points(blueprint_.view(), memory());
+    else algest::reset(blueprint_.view(), memory());
     reset_moments(moments_);
     run_ = 0;
     block_ = {};
@@ -251,7 +252,9 @@ void HostEstimator<S>::remember(const S* inputs) {
 
 template <class S>
 void HostEstimator<S>::absorb(const S* sample) {
-    if (!push_moments(moments_, blueprint_.view(), memory(), sample, push_scratch_.data())) algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
+    if (push_moments(moments_, blueprint_.view(), memory(), sample, push_scratch_.data())) return;
+    if (plan_->points_above_noise()) algest::push_point(blueprint_.view(), memory(), sample, push_scratch_.data());
+    else algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
 }
 
 template <class S>

@@ -82,7 +82,7 @@ public:
 
     /// Forgets everything.
     void reset() noexcept {
-        algest::reset(pmsm_sensorless_voltage_tables::blueprint, memory());
+        algest::reset_points(pmsm_sensorless_voltage_tables::blueprint, memory());
         held_.status = Status::filling;
         held_.condition = std::numeric_limits<Scalar>::infinity();
         held_.R = 0x1.8p+1;
@@ -200,7 +200,7 @@ public:
             refuse(scratch);
             return;
         }
-        algest::push(pmsm_sensorless_voltage_tables::blueprint, memory(), signals, scratch);
+        algest::push_point(pmsm_sensorless_voltage_tables::blueprint, memory(), signals, scratch);
     }
 
     /// Solves with the windows as they are now.
@@ -271,7 +271,7 @@ private:
     Memory<Scalar> memory() noexcept { return {rings_, sums_, published_, &progress_, nullptr, nullptr}; }
 
     void refuse(Scalar* scratch) noexcept {
-        algest::push(pmsm_sensorless_voltage_tables::blueprint, memory(), static_cast<const Scalar*>(nullptr), scratch);
+        algest::push_point(pmsm_sensorless_voltage_tables::blueprint, memory(), static_cast<const Scalar*>(nullptr), scratch);
         point_ = SteadyProgress{};
     }
 

@@ -87,12 +87,13 @@ Counts counts(const plan::Plan& plan) {
     auto bias = sized(rows.unknowns);
     Progress progress{};
     const Memory<Counted> memory = {rings.data(), sums.data(), published.data(), &progress, whitened_at.data()};
-    reset(blueprint, memory);
+    points ? reset_points(blueprint, memory) : reset(blueprint, memory);
     std::mt19937 random(1);
     std::vector<Counted> sample(static_cast<std::size_t>(rows.signals));
+    const auto push_newest = [&] { points ? push_point(blueprint, memory, sample.data(), scratch.data()) : push(blueprint, memory, sample.data(), scratch.data()); };
     for (int k = 0; k < rows.samples + instants + 2; ++k) {
         for (Counted& x : sample) x = Counted(static_cast<double>(random() % 1000U) - 500.0);
-        push(blueprint, memory, sample.data(), scratch.data());
+        push_newest();
     }
     const auto counted = [](auto&& work) {
         const long before = Counted::operations;
@@ -101,7 +102,7 @@ Counts counts(const plan::Plan& plan) {
     };
     Counts out{};
     out.rows = counted([&] { evaluate_rows(rows, rings.data(), WindowPosition{length, 0}, scratch.data(), scratch.data() + row_entries(rows.rows, rows.unknowns)); });
-    out.push = counted([&] { push(blueprint, memory, sample.data(), scratch.data()); });
+    out.push = counted(push_newest);
     out.estimate = counted([&] { REQUIRE(estimate(blueprint, memory, scratch.data(), lumped.data()).status == Status::ok); });
     if (plan.uncertain()) out.uncertainty = counted([&] { REQUIRE(uncertainty(blueprint, memory, scratch.data(), lumped.data(), covariance.data(), bias.data()).status == Status::ok); });
     return out;

@@ -206,8 +206,9 @@ inline S* next_slot(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     return memory.published + p.slot * slot_scalars(blueprint);
 }
 
-/// Adds the rows of the newest instant (destroyed) to the sums of the solve, and publishes the sums; where the published copy goes on behind them.
-template <class S>
+/// Adds the rows of the newest instant (destroyed) to the sums of the solve, and publishes the sums; where the published copy goes on behind them. points: of
+/// an operating point, whose errors are summed, too.
+template <bool points, class S>
 inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     Progress& p = *memory.progress;
@@ -218,11 +219,11 @@ inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noe
         p.absorbed = gram_is_full(p.gram, blueprint.solve_instants) ? 1U : 0U;
     } else {
         add_rows(memory.sums, matrix, rows.rows, rows.unknowns, blueprint.keep);
-        if (blueprint.points.groups > 0) add_residuals(blueprint.points, matrix, rows.unknowns, memory.sums + triangle_scalars(rows.unknowns));
+        if constexpr (points) add_residuals(blueprint.points, matrix, rows.unknowns, memory.sums + triangle_scalars(rows.unknowns));
         p.absorbed = 1;
     }
     S* const slot = next_slot(blueprint, memory);
-    const int size = triangle_scalars(rows.unknowns) + point_noise_scalars(rows.unknowns, blueprint.points.groups);
+    const int size = triangle_scalars(rows.unknowns) + (points ? point_noise_scalars(rows.unknowns, blueprint.points.groups) : 0);
     for (int k = 0; k < size; ++k) slot[k] = memory.sums[k];
     return slot + size;
 }
@@ -237,23 +238,30 @@ inline void reset(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     if (blueprint.ratio.used) restart_ratio(memory.ratio);
     if (blueprint.solve == Solve::robust) clear_gram(memory.sums, memory.progress->gram, blueprint.rows.unknowns);
     if (blueprint.solve == Solve::least_squares || blueprint.solve == Solve::elimination) {
-        const int size = sum_scalars(blueprint.points, blueprint.rows.unknowns);
+        const int size = triangle_scalars(blueprint.rows.unknowns);
         for (int i = 0; i < size; ++i) memory.sums[i] = S(0);
     }
 }
 
-/// Takes one sample of every signal; nullptr says that the newest sample was refused: the windows and S(t) restart,
-/// the rows that least_squares and elimination absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
-/// their absorption. Never fails.
+/// The same of operating points with a margin over noise.
 template <class S>
-inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
+inline void reset_points(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
+    reset(blueprint, memory);
+    for (int i = triangle_scalars(blueprint.rows.unknowns); i < sum_scalars(blueprint.points, blueprint.rows.unknowns); ++i) memory.sums[i] = S(0);
+}
+
+namespace detail {
+
+/// push and push_point: two functions, so that who has no operating points has no code for them.
+template <bool points, class S>
+inline void push_any(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     Progress& p = *memory.progress;
     const int length = ring_length(rows.samples, blueprint.kept);
-    detail::begin_write(p);
+    begin_write(p);
     if (sample == nullptr) {
-        detail::refuse(blueprint, memory);
-        detail::end_write(p);
+        refuse(blueprint, memory);
+        end_write(p);
         return;
     }
     p.rejected = 0;
@@ -264,14 +272,32 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
         S* const spare = scratch + row_entries(rows.rows, rows.unknowns);
         const WindowPosition window_at = newest(rows.samples, length, p.head);
         evaluate_rows(rows, memory.rings, window_at, scratch, spare);
-        if (blueprint.points.groups > 0 && all_finite(scratch, row_entries(rows.rows, rows.unknowns))) {
+        if constexpr (points) {
             S* const sums = memory.sums + triangle_scalars(rows.unknowns);
-            add_point(rows, blueprint.noise, blueprint.points, memory.rings, window_at, blueprint.keep, scratch, spare, sums,
-                      sums + point_noise_scalars(rows.unknowns, blueprint.points.groups));
+            if (all_finite(scratch, row_entries(rows.rows, rows.unknowns))) {
+                add_point(rows, blueprint.noise, blueprint.points, memory.rings, window_at, blueprint.keep, scratch, spare, sums,
+                          sums + point_noise_scalars(rows.unknowns, blueprint.points.groups));
+            }
         }
-        (void)detail::absorb(blueprint, memory, scratch);
+        (void)absorb<points>(blueprint, memory, scratch);
     }
-    detail::end_write(p);
+    end_write(p);
+}
+
+}  // namespace detail
+
+/// Takes one sample of every signal; nullptr says that the newest sample was refused: the windows and S(t) restart,
+/// the rows that least_squares and elimination absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
+/// their absorption. Never fails.
+template <class S>
+inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
+    detail::push_any<false>(blueprint, memory, sample, scratch);
+}
+
+/// The same for operating points with a margin over noise: what errors of their means make of the rows is summed, too.
+template <class S>
+inline void push_point(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
+    detail::push_any<true>(blueprint, memory, sample, scratch);
 }
 
 /// Says that a sample was accepted which fills no window yet: the first of a run where signals are one sample late.
@@ -288,7 +314,6 @@ struct Latest {
     bool current;
     Status status;
     S condition;   ///< of the scaled matrix that was solved; infinity unless status is ok or singular
-    S excess = S(1);   ///< operating points: times that the residuals are what the declared errors of the means explain
 };
 
 namespace detail {
@@ -450,9 +475,10 @@ inline bool certain_enough(const Blueprint<S>& blueprint, const S* covariance, c
     return true;
 }
 
-/// estimate, and what it copied of the producer's progress. plain: without ratio filter, deviation limit and perturbation.
+/// estimate, and what it copied of the producer's progress. plain: without ratio filter, deviation limit and perturbation. excess: of operating points, how
+/// many times the residuals are what the declared errors of the means explain; else 1.
 template <class S>
-[[gnu::always_inline]] inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, Progress& then, bool plain) noexcept {
+[[gnu::always_inline]] inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, Progress& then, bool plain, S& excess) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const S none = std::numeric_limits<S>::infinity();
     const bool filters = !plain && blueprint.ratio.used;
@@ -471,7 +497,6 @@ template <class S>
     const int groups = blueprint.points.groups;
     const EstimateScratch<S> at = estimate_scratch_at(rows, scratch, margin, groups);
     S* const square_of_noise = margin ? at.noise + above_noise_scratch(n, groups) - n * n : nullptr;
-    S excess = S(1);
     Solved<S> solved = {false, none};
     bool beyond_noise = true;
     if (blueprint.solve == Solve::square) {
@@ -513,7 +538,7 @@ template <class S>
     }
     if (good && perturbed) perturbation_of(blueprint, memory, then, at.matrix, lumped, lumped + n);
     if ((limited || perturbed) && overtaken(blueprint, memory, then)) return {false, Status::filling, none};
-    return {true, good ? Status::ok : Status::singular, solved.condition, excess};
+    return {true, good ? Status::ok : Status::singular, solved.condition};
 }
 
 }  // namespace detail
@@ -526,7 +551,8 @@ template <class S>
 template <class S>
 [[gnu::always_inline]] inline Latest<S> estimate(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped) noexcept {
     Progress then;
-    const Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, false);
+    S excess = S(1);
+    const Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, false, excess);
     if (latest.current && latest.status == Status::ok) {
         for (int u = 0; u < blueprint.whiten_at.size; ++u) memory.whitened_at[u] = lumped[u];
     }
@@ -540,10 +566,11 @@ template <class S>
 template <class S>
 [[gnu::always_inline]] inline Latest<S> uncertainty(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, S* covariance, S* bias) noexcept {
     Progress then;
-    Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, true);
+    S excess = S(1);
+    Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, true, excess);
     if (!latest.current || latest.status != Status::ok) return latest;
     if (blueprint.points.groups > 0) {
-        detail::propagate_all_points(blueprint, memory, scratch, latest.excess, lumped, covariance, bias);
+        detail::propagate_all_points(blueprint, memory, scratch, excess, lumped, covariance, bias);
         if (detail::pushes_since(*memory.progress, then) > 0U) return {false, Status::filling, std::numeric_limits<S>::infinity()};
         return latest;
     }
