@@ -106,7 +106,7 @@ void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Reco
         if (summary.deviation[p]) {
             note(what_is_hardly_told(name, *summary.last[p], *summary.deviation[p]));
             note(what_stands_apart(name, replay, summary, p));
-        } else if (!plan.uncertain() && plan.solve != plan::Solve::least_squares) {
+        } else if (!plan.uncertain() && plan.solve != Solve::least_squares) {
             note(what_no_noise_explains(name, replay, summary, p, ok));
         }
     }
