@@ -22,7 +22,7 @@ namespace {
 
 constexpr double confirming_tolerance = 1e-8;
 constexpr double rows_that_see = 2.0;   ///< residual of the nominal model over noise, from which on rows may overrule a long run
-constexpr double nothing_is_left = 1.01;   ///< gap that no law of a fiftieth of the error hides in
+constexpr double nothing_is_left = 1.01;   ///< gap below which no law can hold 3 percent of the squared error
 
 std::vector<NamedParameter> parameters(const Variant& v) {
     std::vector<NamedParameter> out;
