@@ -145,7 +145,7 @@ std::vector<std::string> changed_later(const std::vector<RecordingEvidence>& rec
     for (const RecordingEvidence& r : recordings) {
         for (const OutputGap& o : r.outputs) {
             if (!(o.floor > 0) || o.after <= far * o.floor) continue;
-            out.push_back(fmt::format("{}over the test stretch, from {:.4g} to {:.4g} s, '{}' is missed by {:.2g} times its noise, and was met before: a sensor failed or the machine changed, or what acts there does not act in the training stretch",
+            out.push_back(fmt::format("{}over the test stretch, from {:.4g} to {:.4g} s, '{}' is missed by {:.0f} times its noise, and was met before: a sensor failed or the machine changed, or what acts there does not act in the training stretch",
                                       recordings.size() > 1 ? r.file + ": " : "", r.test_from_s, r.test_to_s, o.signal, o.after / o.floor));
         }
     }
