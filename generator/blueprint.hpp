@@ -2,6 +2,7 @@
 // Plan -> the constant data of a runtime estimator: one construction for the emitter and for replay, so that both run the
 // same operations in the same order. No GiNaC.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,39 @@ RowData<S> make_rows(const std::vector<Row>& rows, int unknowns) {
     return data;
 }
 
+/// The arrays behind a PointRows.
+struct PointRowData {
+    std::vector<std::uint16_t> first = {};
+    std::vector<std::uint16_t> columns = {};
+    std::vector<std::uint16_t> group = {};
+    int groups = 0;
+
+    /// Valid until this object changes, moves or ends. Cost: none.
+    algest::PointRows view() const {
+        return {{first.data(), static_cast<int>(first.size())}, {columns.data(), static_cast<int>(columns.size())}, {group.data(), static_cast<int>(group.size())}, groups};
+    }
+};
+
+/// Groups: the stages of an elimination, by the columns of the rows; else one. Empty where a plan keeps nothing of the points' noise.
+inline PointRowData make_point_rows(const Plan& plan) {
+    PointRowData out;
+    if (!plan.points_above_noise()) return out;
+    out.groups = plan.elimination ? static_cast<int>(plan.elimination->stages.size()) : 1;
+    for (const Row& row : plan.rows) {
+        std::vector<std::uint16_t> columns = {static_cast<std::uint16_t>(plan.lumped.size())};
+        for (const RowTerm& term : row.terms) if (term.lumped >= 0) columns.push_back(static_cast<std::uint16_t>(term.lumped));
+        std::sort(columns.begin(), columns.end());
+        columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+        int group = 0;
+        for (int s = 0; plan.elimination && s < out.groups; ++s) if (plan.elimination->stages[static_cast<std::size_t>(s)].first_column <= columns[0]) group = s;
+        out.first.push_back(static_cast<std::uint16_t>(out.columns.size()));
+        out.columns.insert(out.columns.end(), columns.begin(), columns.end());
+        out.group.push_back(static_cast<std::uint16_t>(group));
+    }
+    out.first.push_back(static_cast<std::uint16_t>(out.columns.size()));
+    return out;
+}
+
 /// The arrays behind a Blueprint, and its numbers.
 template <class S>
 struct BlueprintData {
@@ -84,6 +118,7 @@ struct BlueprintData {
     S margin_over_noise = S(0);
     int output = 0;
     S output_noise = S(0);
+    PointRowData points = {};
 
     /// The arrays as the runtime reads them: valid until this object changes, moves or ends. Cost: none.
     algest::Blueprint<S> view() const {
@@ -106,7 +141,8 @@ struct BlueprintData {
                 {sizes.data(), static_cast<int>(sizes.size())},
                 margin_over_noise,
                 static_cast<std::uint16_t>(output),
-                output_noise};
+                output_noise,
+                points.view()};
     }
 
 private:
@@ -202,12 +238,14 @@ BlueprintData<S> make_blueprint(const Plan& plan) {
     }
     for (const double x : plan.noise_floor) data.noise_floor.push_back(static_cast<S>(x));
     if (plan.deviation_limit > 0.0) {
-        for (const Lumped& u : plan.lumped) data.sizes.push_back(std::isfinite(u.initial) ? static_cast<S>(std::abs(u.initial)) : S(0));
+        for (const Lumped& u : plan.lumped) if (!plan.elimination) data.sizes.push_back(std::isfinite(u.initial) ? static_cast<S>(std::abs(u.initial)) : S(0));
+        for (const Parameter& p : plan.parameters) if (plan.elimination) data.sizes.push_back(static_cast<S>(std::abs(p.initial)));
     }
     data.elimination = make_elimination<S>(plan.elimination);
     data.margin_over_noise = static_cast<S>(plan.margin_over_noise);
     data.output = plan.output;
     data.output_noise = static_cast<S>(plan.output_noise);
+    data.points = make_point_rows(plan);
     if (plan.ratio) {
         const auto s = [](double x) { return static_cast<S>(x); };
         const std::vector<double>& t = plan.ratio->transition;

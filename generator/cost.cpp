@@ -34,13 +34,15 @@ int accumulators(const Plan& plan, int signals) {
 int instance_bytes(const Plan& plan) {
     const int unknowns = static_cast<int>(plan.lumped.size());
     const int signals = plan.rings();
-    const bool above_noise = plan.margin_over_noise > 0.0;
-    int scalars = sum_scalars(plan.solve, unknowns, plan.solve_instants, above_noise);
+    const plan::PointRowData points = plan::make_point_rows(plan);
+    const bool of_points = points.groups > 0;
+    int scalars = of_points ? sum_scalars(points.view(), unknowns) : sum_scalars(plan.solve, unknowns, plan.solve_instants);
     if (plan.moments) {
         scalars += moment_ring(signals, plan.samples()) + 2 * references(plan, signals);
         scalars += published_row_scalars(plan.solve, static_cast<int>(plan.rows.size()), unknowns, static_cast<int>(plan.perturbation.size()));
     } else {
-        scalars += ring_scalars(signals, ring_length(plan.samples(), plan.kept)) + published_scalars(plan.solve, unknowns, above_noise);
+        scalars += ring_scalars(signals, ring_length(plan.samples(), plan.kept));
+        scalars += of_points ? published_scalars(points.view(), unknowns) : published_scalars(plan.solve, unknowns);
     }
     scalars += 2 + static_cast<int>(plan.parameters.size());   // Estimate: status padded to a scalar, condition, parameters
     if (plan.whiten) scalars += unknowns;
@@ -161,8 +163,9 @@ Cost margin_cost(const Plan& plan, const plan::RowData<double>& rows) {
         out.estimate = rows.rows * 2 * packed + triangle_rises_above_cost(static_cast<int>(unknowns));
         return out;
     }
-    out.push = noisy_products(plan, rows) + noisy_inputs(plan) * rows.rows * packed;
-    if (plan.solve == Solve::least_squares) out.estimate = triangle_rises_above_cost(static_cast<int>(unknowns));
+    const plan::PointRowData points = plan::make_point_rows(plan);
+    out.push = add_point_cost(points.view(), noisy_inputs(plan), noisy_products(plan, rows), plan.keep != 1.0, static_cast<int>(unknowns)) + rows.rows;
+    if (plan.solve == Solve::least_squares) out.estimate = triangle_rises_above_cost(static_cast<int>(unknowns)) + expected_residuals_cost(static_cast<int>(unknowns)) + 2;
     return out;
 }
 
@@ -198,7 +201,10 @@ Cost cost_of(const Plan& plan) {
         out.table_bytes = (tables * plan.samples() + of_floor) * scalar_bytes(plan.scalar);
     }
     out.push += absorption(plan);
-    if (plan.uncertain()) {
+    if (plan.points_above_noise()) {
+        const auto elimination = plan::make_elimination<double>(plan.elimination);
+        out.uncertainty = propagate_points_cost(plan::make_point_rows(plan).view(), elimination.view(), static_cast<int>(plan.lumped.size()));
+    } else if (plan.uncertain()) {
         out.whitening = plan.whiten ? whitening(plan, rows) : 0;
         out.uncertainty = uncertainty(plan, rows, out.rows + out.whitening);
     }

@@ -327,6 +327,7 @@ std::string derivation_text(const Plan& plan) {
     d.set("uncertain", plan.uncertain());
     d.set("noisy", !plan.noise.empty());
     d.set("above_noise", plan.margin_over_noise > 0.0);
+    d.set("points_above_noise", plan.points_above_noise());
     d.set("margin", fmt::format("{:.6g}", plan.margin_over_noise));
     d.set("kernels", kernels_data(plan, false));
     DataList stages;

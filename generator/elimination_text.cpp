@@ -69,10 +69,10 @@ void set_elimination(const plan::Plan& plan, Data& d) {
     set_array(d, arrays, "std::uint8_t", "exponents", data.exponents, suffix);
     set_array(d, arrays, scalar, "resultant", data.terms, suffix);
     set_array(d, arrays, "std::uint8_t", "factors", data.factors, suffix);
-    set_array(d, arrays, scalar, "sizes", data.sizes, suffix);
+    set_array(d, arrays, scalar, "parameter_sizes", data.sizes, suffix);
     d.set("eliminates", plan.elimination.has_value());
-    d.set("elimination_macs", std::to_string(wide ? elimination_cost(data.view(), plan.margin_over_noise > 0.0) : elimination_cost(plan::make_elimination<float>(plan.elimination).view(), plan.margin_over_noise > 0.0)));
-    d.set("elimination_stack", std::to_string(elimination_scratch(data.view()) * (wide ? 8 : 4)));
+    d.set("elimination_macs", std::to_string(wide ? elimination_cost(data.view(), plan.points_above_noise()) : elimination_cost(plan::make_elimination<float>(plan.elimination).view(), plan.points_above_noise())));
+    d.set("elimination_stack", std::to_string(elimination_scratch(data.view(), plan.points_above_noise()) * (wide ? 8 : 4)));
     d.set("eliminated_parameters", std::to_string(data.parameters));
     d.set("elimination_arrays", listed(arrays));
 }

@@ -151,7 +151,7 @@ Data head(const Plan& plan, const std::string& hash) {
     d.set("uncertain", plan.uncertain());
     d.set("noisy", !plan.noise.empty());
     d.set("above_noise", plan.margin_over_noise > 0.0);
-    d.set("points_above_noise", plan.margin_over_noise > 0.0 && !plan.normalise);
+    d.set("points_above_noise", plan.points_above_noise());
     d.set("rows_above_noise", plan.margin_over_noise > 0.0 && plan.normalise);
     d.set("whitened", plan.whiten);
     d.set("ratio", plan.ratio.has_value());
@@ -177,7 +177,8 @@ void set_cost(const Plan& plan, Data& d) {
     const int unknowns = static_cast<int>(plan.lumped.size());
     if (plan.uncertain()) {
         d.set("uncertainty_macs", std::to_string(cost.uncertainty));
-        d.set("uncertainty_stack", std::to_string((uncertainty_scratch(rows, unknowns, plan.solve_instants) + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan.scalar)));
+        const int scratch = plan.points_above_noise() ? point_uncertainty_scratch(plan::make_blueprint<double>(plan).view()) : uncertainty_scratch(rows, unknowns, plan.solve_instants);
+        d.set("uncertainty_stack", std::to_string((scratch + static_cast<int>(plan.map_derivatives.results.size())) * scalar_bytes(plan.scalar)));
         d.set("whiten_macs", std::to_string(cost.whitening));
     }
     d.set("spare", std::to_string(spare_samples));
@@ -309,7 +310,8 @@ std::string estimator_header(const Plan& plan, const std::string& hash) {
         held.push_back(i);
     }
     d.set("held_list", listed(held));
-    if (plan.uncertain()) {
+    d.set("solved_count", plan.elimination ? std::to_string(plan.parameters.size()) : std::string("unknowns"));
+    if (plan.uncertain() && !plan.elimination) {
         const PrintedTape derivatives(plan.map_derivatives, plan, "d", [](Op, int k) { return "lumped[" + std::to_string(k) + "]"; });
         d.set("derivative_lines", derivatives.lines());
         const std::size_t gradients = static_cast<std::size_t>(plan.estimated()) * plan.lumped.size();
@@ -381,6 +383,12 @@ void set_rows(const Plan& plan, const plan::RowData<double>& rows, const std::st
     }
     d.set(prefix + "terms", listed(terms));
     d.set(prefix + "term_count", std::to_string(rows.terms.size()));
+}
+
+std::string joined(const std::vector<std::uint16_t>& numbers) {
+    std::string out;
+    for (const std::uint16_t n : numbers) out += (out.empty() ? "" : ", ") + std::to_string(n);
+    return out;
 }
 
 std::string joined(const std::vector<double>& numbers, const Plan& plan) {
@@ -477,6 +485,13 @@ std::string tables_header(const Plan& plan, const std::string& hash) {
     d.set("has_noise_tests", !blueprint.sizes.empty() || !blueprint.noise_floor.empty() || plan.margin_over_noise > 0.0);
     d.set("margin_over_noise", literal(plan.margin_over_noise, plan.scalar));
     d.set("has_sizes", !blueprint.sizes.empty());
+    d.set("sizes_count", std::to_string(blueprint.sizes.size()));
+    d.set("first_columns", joined(blueprint.points.first));
+    d.set("first_columns_count", std::to_string(blueprint.points.first.size()));
+    d.set("point_columns", joined(blueprint.points.columns));
+    d.set("point_columns_count", std::to_string(blueprint.points.columns.size()));
+    d.set("point_groups", joined(blueprint.points.group));
+    d.set("groups", std::to_string(blueprint.points.groups));
     d.set("sizes", joined(blueprint.sizes, plan));
     d.set("noise_of_rows", plan.normalise && !blueprint.noise_floor.empty());
     d.set("has_floor_numbers", !blueprint.noise_floor.empty());

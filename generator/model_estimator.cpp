@@ -46,7 +46,12 @@ void check_noise(const toml::table& t, Reading& reading) {
     }
     const auto asked = [&](const char* key, bool by) {
         if (!by) return;
-        if (e.solve == Solver::least_squares || e.solve == Solver::elimination) {
+        const bool pooled = e.solve == Solver::least_squares || e.solve == Solver::elimination;
+        if (pooled && e.functional == Functional::average) {
+            if (!noisy && std::none_of(signals.begin(), signals.end(), [](const Signal& s) { return s.steady && !cln::zerop(*s.steady); })) {
+                reading.file.error(*t.get(key), std::string(key) + " needs the errors of the means", "declare noise = ... or steady = ... for the measured signals, in their unit");
+            }
+        } else if (pooled) {
             reading.file.error(*t.get(key), std::string(key) + " is not to be had with " + (e.solve == Solver::elimination ? "elimination" : "least_squares") + ", which keeps no window of what it absorbed", "use square or robust, or leave it out");
         } else if (e.solve == Solver::robust && !e.has_window()) {
             reading.file.error(*t.get(key), std::string(key) + " is not to be had with robust rows of single instants", "use solve = \"square\", or leave it out");

@@ -91,7 +91,7 @@ std::vector<KeySection> all() {
             {"forgetting", "", "1", "least squares: factor on the weight of old rows at each sample, e.g. 0.9995", ""},
             {"condition_limit", "", "(1e5; in float 8400, robust 92)", "above it an estimate is `singular`", "controller.md"},
             {"deviation_limit", "", "(0.1 with square, declared noise and initial values; else 0)", "an estimate is `singular` where noise gives an unknown a standard deviation above this part of it, or of its initial value if that is larger; 0: never", "controller.md"},
-            {"uncertainty", "", "(where noise is declared, with square and robust)", "`false` leaves `uncertainty()` and its memory out; with means and in z and q the test against noise", "controller.md"},
+            {"uncertainty", "", "(where noise is declared, with square, robust and means)", "`false` leaves `uncertainty()` and its memory out; with means and in z and q the test against noise", "controller.md"},
             {"whiten", "", "false", "`true`: more rows than unknowns, with `square`, are weighed by the noise of their residuals", ""},
             {"ratio_filter", "", "", "`{ omega_n = 15, zeta = 0.707 }`: a low-pass on numerators and denominators of `robust`", ""},
             {"stages", "", "(all at once)", "elimination: names of equations in the order in which they are solved", "operating-points.md"},

@@ -312,8 +312,10 @@ struct Plan {
     int rings() const { return static_cast<int>(window_signals.size() + partials.size()); }
     /// That are estimated; perturbations stand behind them.
     int estimated() const { return static_cast<int>(parameters.size() - perturbation.size()); }
-    /// True where uncertainty() is served; pooled rows know their noise by its margin alone.
-    bool uncertain() const { return !noise.empty() && margin_over_noise == 0.0; }
+    /// True where uncertainty() is served.
+    bool uncertain() const { return !noise.empty() && !normalise; }
+    /// True of operating points whose errors are declared.
+    bool points_above_noise() const { return margin_over_noise > 0.0 && !normalise; }
     /// What the signals' tape reads as its input k: a quantity that is averaged, or what is fed.
     const std::string& tape_input(int k) const {
         const std::size_t i = static_cast<std::size_t>(k);

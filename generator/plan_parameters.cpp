@@ -94,7 +94,7 @@ void plan_parameters(const model::Model& model, const lumping::Lumping& lumping,
     perturbations(model, lumping, plan, map, operations);
     plan.parameter_map = map.finish();
     elimination(lumping, plan);
-    if (plan.uncertain() || plan.solve == algest::Solve::least_squares) derivatives_of_the_map(model, lumping, plan);
+    if ((plan.uncertain() && !plan.elimination) || plan.solve == algest::Solve::least_squares) derivatives_of_the_map(model, lumping, plan);
 }
 
 }  // namespace algest::generator

@@ -241,8 +241,9 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
         std::vector<std::string> all = doubts(bench, *nominal, selection, out.verdict);
         for (const std::string& doubt : untried(bench)) all.push_back(doubt);
         if (rest) {
-            const std::string before = beside_a_name ? selection.best.amendments.back().effect + " takes most of the gap, but" : "the model is near the noise, but";
-            all.push_back(fmt::format("{} what is left in '{}' still follows {}: the law that is missing is another one", before, rest->equation, rest->term));
+            const std::string left = fmt::format("what is left in '{}' still follows {}", rest->equation, rest->term);
+            all.push_back(beside_a_name ? fmt::format("{} takes most of the gap, but {}: the law that is missing is another one", selection.best.amendments.back().effect, left)
+                                        : fmt::format("the model is near the noise, but {}", left));
         }
         return all;
     };

@@ -3,6 +3,7 @@
 #include "lab/host_estimator.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "algest/arithmetic.hpp"
 #include "generator/tape.hpp"
@@ -22,17 +23,19 @@ HostEstimator<S>::HostEstimator(const plan::Plan& plan)
       moments_(host_moments<S>(plan)),
       rings_(size(plan.moments ? moment_ring(blueprint_.signals, blueprint_.samples)
                                : ring_scalars(blueprint_.signals, ring_length(blueprint_.samples, blueprint_.kept)))),
-      sums_(size(sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants, plan.margin_over_noise > 0.0))),
+      sums_(size(plan.points_above_noise() ? sum_scalars(blueprint_.points.view(), blueprint_.unknowns) : sum_scalars(blueprint_.solve, blueprint_.unknowns, blueprint_.solve_instants))),
       published_(size(plan.moments ? published_row_scalars(blueprint_.solve, blueprint_.rows.rows, blueprint_.unknowns, blueprint_.perturbation.rows)
-                                   : published_scalars(blueprint_.solve, blueprint_.unknowns, plan.margin_over_noise > 0.0))),
+                   : plan.points_above_noise() ? published_scalars(blueprint_.points.view(), blueprint_.unknowns)
+                                               : published_scalars(blueprint_.solve, blueprint_.unknowns))),
       whitened_at_(blueprint_.whiten_at),
       ratio_(size(ratio_scalars(blueprint_.ratio.used, blueprint_.unknowns))),
       boxcar_(size(boxcar_scalars(blueprint_.signals))),
       means_(size(blueprint_.signals)),
-      push_scratch_(size(push_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns))),
+      push_scratch_(size(push_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns) + all_change_products(blueprint_.points.view()))),
       estimate_scratch_(size(uncertainty_scratch(std::max(blueprint_.rows.rows, blueprint_.perturbation.rows), blueprint_.unknowns,
                                                  plan.solve_instants) +
-                             packed_size(blueprint_.unknowns) + above_noise_scratch(blueprint_.unknowns) + elimination_scratch(blueprint_.elimination.view()))),
+                             above_noise_scratch(blueprint_.unknowns) + point_uncertainty_scratch(blueprint_.view()) +
+                             packed_size(point_parameters(blueprint_.elimination.view(), blueprint_.unknowns)))),
       waiting_(size(plan.longest_wait() + 1) * plan.inputs.size()),
       aligned_(plan.inputs.size()),
       previous_(plan.inputs.size()),
@@ -44,8 +47,8 @@ HostEstimator<S>::HostEstimator(const plan::Plan& plan)
       map_values_(plan.parameter_map.operations.size()),
       mapped_(plan.parameter_map.results.size()),
       parameters_(plan.parameters.size()),
-      covariance_(size(packed_size(blueprint_.unknowns))),
-      lumped_bias_(plan.lumped.size()),
+      covariance_(size(packed_size(point_parameters(blueprint_.elimination.view(), blueprint_.unknowns)))),
+      lumped_bias_(size(point_parameters(blueprint_.elimination.view(), blueprint_.unknowns))),
       derivative_values_(plan.map_derivatives.operations.size()),
       map_derivatives_(plan.map_derivatives.results.size()),
       deviation_(plan.parameters.size()),
@@ -64,7 +67,8 @@ HostEstimator<S>::HostEstimator(const plan::Plan& plan)
 
 template <class S>
 void HostEstimator<S>::reset() {
-    algest::reset(blueprint_.view(), memory());
+    if (plan_->points_above_noise()) algest::reset_points(blueprint_.view(), memory());
+    else algest::reset(blueprint_.view(), memory());
     reset_moments(moments_);
     run_ = 0;
     block_ = {};
@@ -135,6 +139,13 @@ Status HostEstimator<S>::uncertainty() {
     const Latest<S> latest = algest::uncertainty(blueprint_.view(), memory(), estimate_scratch_.data(), lumped_.data(), covariance_.data(), lumped_bias_.data());
     if (!latest.current || latest.status != Status::ok) return latest.status;
     const int n = blueprint_.unknowns;
+    if (plan_->elimination) {   // it was solved for the parameters themselves
+        for (int p = 0; p < plan_->estimated(); ++p) {
+            deviation_[size(p)] = std::sqrt(covariance_[size(packed_index(plan_->estimated(), p, p))]);
+            bias_[size(p)] = lumped_bias_[size(p)];
+        }
+        return Status::ok;
+    }
     const std::size_t gradients = size(plan_->estimated() * n);
     plan::evaluate<S>(plan_->map_derivatives, lumped_.data(), nullptr, nullptr, derivative_values_.data(), map_derivatives_.data());
     for (int p = 0; p < plan_->estimated(); ++p) {
@@ -241,7 +252,9 @@ void HostEstimator<S>::remember(const S* inputs) {
 
 template <class S>
 void HostEstimator<S>::absorb(const S* sample) {
-    if (!push_moments(moments_, blueprint_.view(), memory(), sample, push_scratch_.data())) algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
+    if (push_moments(moments_, blueprint_.view(), memory(), sample, push_scratch_.data())) return;
+    if (plan_->points_above_noise()) algest::push_point(blueprint_.view(), memory(), sample, push_scratch_.data());
+    else algest::push(blueprint_.view(), memory(), sample, push_scratch_.data());
 }
 
 template <class S>

@@ -31,43 +31,110 @@ bool is_constant(const plan::Plan& plan, const OperatingPoints& points, std::siz
     return high - low <= std::max(uncertain, same * std::max(std::abs(low), std::abs(high))) && (low != 0.0 || high != 0.0);
 }
 
-/// Parameters of linear rows in the combinations that the points show no better than noise does, in words; empty: none, or not linear.
-std::string not_above_noise(const plan::Plan& plan, const OperatingPoints& points) {
-    if (plan.solve != Solve::least_squares || plan.margin_over_noise == 0.0) return "";
-    constexpr double small = 0.2;   // of the largest part in a combination: what takes part by less does so by chance
-    const auto blueprint = plan::make_blueprint<double>(plan);
-    const RowSet<double> rows = blueprint.view().rows;
+/// All rows of the points, and what the errors of their means make of them, as the runtime sums it.
+struct Pooled {
+    std::vector<double> triangle, sums, moments;
+};
+
+Pooled pool(const Blueprint<double>& blueprint, const plan::Plan& plan, const OperatingPoints& points) {
+    const auto sized = [](int count) { return std::vector<double>(static_cast<std::size_t>(count), 0.0); };
+    const RowSet<double>& rows = blueprint.rows;
     const int n = rows.unknowns;
-    std::vector<double> rings(static_cast<std::size_t>(ring_scalars(rows.signals, 1))), values(plan.signals.operations.size()), matrix(static_cast<std::size_t>(2 * row_entries(rows.rows, n)));
-    std::vector<double> noise(static_cast<std::size_t>(packed_size(n)), 0.0), signals(plan.signals.results.size());
-    Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(n, n);
+    Pooled out{sized(triangle_scalars(n)), sized(point_noise_scalars(n, blueprint.points.groups)), sized(point_moments(blueprint.points))};
+    auto rings = sized(ring_scalars(rows.signals, 1)), matrix = sized(row_entries(rows.rows, n)), spare = sized(row_entries(rows.rows, n) + all_change_products(blueprint.points));
+    std::vector<double> values(plan.signals.operations.size()), signals(plan.signals.results.size());
     for (std::size_t k = 0; k < points.count(); ++k) {
         plan::evaluate<double>(plan.signals, points.means.data() + k * points.quantities, nullptr, nullptr, values.data(), signals.data());
         write_sample(rings.data(), rows.signals, 1, 0, signals.data());
-        double* const spare = matrix.data() + row_entries(rows.rows, n);
-        evaluate_rows(rows, rings.data(), newest(1, 1, 0), matrix.data(), spare);
-        for (int r = 0; r < rows.rows; ++r) {
-            const Eigen::Map<const Eigen::RowVectorXd> row(matrix.data() + r * (n + 1), n);
-            seen += row.transpose() * row;
-        }
-        add_noise(rows, blueprint.view().noise, rings.data(), newest(1, 1, 0), 1.0, spare, noise.data());
+        const WindowPosition at = newest(1, 1, 0);
+        evaluate_rows(rows, rings.data(), at, matrix.data(), spare.data());
+        if (!all_finite(matrix.data(), row_entries(rows.rows, n))) continue;
+        add_point(rows, blueprint.noise, blueprint.points, rings.data(), at, blueprint.keep, matrix.data(), spare.data(), out.sums.data(), out.moments.data());
+        add_rows(out.triangle.data(), matrix.data(), rows.rows, n, blueprint.keep);
+        add_residuals(blueprint.points, matrix.data(), n, out.sums.data());
     }
-    Eigen::MatrixXd of_noise(n, n);
-    const Eigen::VectorXd size = seen.diagonal().cwiseSqrt();
-    for (int i = 0; i < n; ++i) for (int j = 0; j < n; ++j) of_noise(i, j) = noise[static_cast<std::size_t>(packed_index(n, std::min(i, j), std::max(i, j)))] / size(i) / size(j);
-    for (int i = 0; i < n; ++i) for (int j = 0; j < n; ++j) seen(i, j) /= size(i) * size(j);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(seen - plan.margin_over_noise * of_noise);
-    if (solved.info() != Eigen::Success || !(solved.eigenvalues()(0) <= 0.0)) return "";
-    std::vector<bool> open(static_cast<std::size_t>(n), false);
-    for (int c = 0; c < n && solved.eigenvalues()(c) <= 0.0; ++c) {
+    return out;
+}
+
+/// What the columns do with what is solved for (columns x solved), where the points are solved without a test against noise; and how many times the residuals
+/// are what noise explains. Empty: the columns depend on each other.
+struct Solution {
+    Eigen::MatrixXd slopes;
+    double excess = 1.0;
+};
+
+std::optional<Solution> solve(const Blueprint<double>& blueprint, const Pooled& pooled) {
+    const int n = blueprint.rows.unknowns;
+    const int solved = point_parameters(blueprint.elimination, n);
+    std::vector<double> scratch(static_cast<std::size_t>(point_scratch(blueprint))), theta(static_cast<std::size_t>(solved));
+    Solution out{Eigen::MatrixXd::Identity(n, n)};
+    if (blueprint.elimination.parameters == 0) {
+        if (!solve_triangle(pooled.triangle.data(), n, scratch.data(), theta.data()).regular) return std::nullopt;
+        out.excess = residual_excess(pooled.sums[static_cast<std::size_t>(group_place(n, 0) + 1)], expected_residuals(pooled.sums.data(), n, 0, 0, n, theta.data()));
+        return out;
+    }
+    if (!eliminate(blueprint.elimination, pooled.triangle.data(), n, scratch.data(), theta.data(), NoiseMargin<double>{nullptr, 0.0}).regular) return std::nullopt;
+    const NoiseMargin<double> noise{pooled.sums.data(), blueprint.margin_over_noise, &out.excess};
+    (void)eliminate(blueprint.elimination, pooled.triangle.data(), n, scratch.data(), theta.data(), noise);
+    for (int p = 0; p < solved; ++p) theta[static_cast<std::size_t>(p)] /= blueprint.elimination.sizes[p];
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> slopes(n, solved);
+    detail::columns_at(blueprint.elimination, theta.data(), n, scratch.data(), slopes.data());
+    out.slopes = slopes;
+    return out;
+}
+
+/// What takes part in the combinations that the points show no better than noise does; by what is solved for.
+std::vector<bool> not_above_noise(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& of_noise) {
+    constexpr double small = 0.2;   // of the largest part in a combination: what takes part by less does so by chance
+    const Eigen::VectorXd size = seen.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(size.asDiagonal() * (seen - of_noise) * size.asDiagonal());
+    std::vector<bool> out(static_cast<std::size_t>(seen.rows()), false);
+    for (Eigen::Index c = 0; solved.info() == Eigen::Success && c < seen.rows() && solved.eigenvalues()(c) <= 0.0; ++c) {
         const Eigen::VectorXd direction = solved.eigenvectors().col(c).cwiseAbs();
-        for (int u = 0; u < n; ++u) if (direction(u) > small * direction.maxCoeff()) open[static_cast<std::size_t>(u)] = true;
+        for (Eigen::Index u = 0; u < seen.rows(); ++u) if (direction(u) > small * direction.maxCoeff()) out[static_cast<std::size_t>(u)] = true;
     }
+    return out;
+}
+
+/// By what is solved for: the unknowns, or with an elimination the parameters, stage after stage.
+std::vector<bool> not_above_noise(const plan::Plan& plan, const Blueprint<double>& blueprint, const Pooled& pooled, const Solution& at) {
+    const int n = blueprint.rows.unknowns;
+    Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(n, n), noise(n, n);
+    for (int i = 0; i < n; ++i) {
+        for (int j = i; j < n; ++j) {
+            triangle(i, j) = pooled.triangle[static_cast<std::size_t>(packed_index(n + 1, i, j))];
+            noise(i, j) = noise(j, i) = plan.margin_over_noise * at.excess * pooled.sums[static_cast<std::size_t>(packed_index(n, i, j))];
+        }
+    }
+    if (!plan.elimination) return not_above_noise(triangle.transpose() * triangle, noise);
+    std::vector<bool> out(plan.parameters.size(), false);
+    for (const plan::EliminationStage& stage : plan.elimination->stages) {
+        std::vector<Eigen::Index> own;
+        for (const plan::EliminationAlone& a : stage.alone) own.push_back(a.parameter);
+        for (const int p : {stage.x, stage.y}) if (p >= 0) own.push_back(p);
+        const Eigen::MatrixXd slopes = at.slopes(Eigen::seqN(stage.first_column, stage.columns), own);
+        const auto block = [&](const Eigen::MatrixXd& of) { return of.block(stage.first_column, stage.first_column, stage.columns, stage.columns); };
+        const Eigen::MatrixXd changes = block(triangle) * slopes;
+        const std::vector<bool> open = not_above_noise(changes.transpose() * changes, slopes.transpose() * block(noise) * slopes);
+        for (std::size_t k = 0; k < own.size(); ++k) if (open[k]) out[static_cast<std::size_t>(own[k])] = true;
+    }
+    return out;
+}
+
+/// Parameters in the combinations that the points show no better than noise does, in words; empty: none.
+std::string not_above_noise(const plan::Plan& plan, const OperatingPoints& points) {
+    if (!plan.points_above_noise()) return "";
+    const auto data = plan::make_blueprint<double>(plan);
+    const Blueprint<double> blueprint = data.view();
+    const Pooled pooled = pool(blueprint, plan, points);
+    const auto at = solve(blueprint, pooled);
+    if (!at) return "";
+    const std::vector<bool> open = not_above_noise(plan, blueprint, pooled, *at);
     std::string out;
-    for (const plan::Parameter& p : plan.parameters) {
-        bool takes_part = false;
-        for (std::size_t u = 0; u < open.size(); ++u) takes_part = takes_part || (open[u] && find_whole_word(plan.lumped[u].meaning, p.name) != std::string::npos);
-        if (takes_part) out += (out.empty() ? "" : ", ") + p.name;
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
+        bool takes_part = plan.elimination && open[p];
+        for (std::size_t u = 0; !plan.elimination && u < open.size(); ++u) takes_part = takes_part || (open[u] && find_whole_word(plan.lumped[u].meaning, plan.parameters[p].name) != std::string::npos);
+        if (takes_part) out += (out.empty() ? "" : ", ") + plan.parameters[p].name;
     }
     return out;
 }

@@ -28,14 +28,16 @@ namespace generated {
 /// not `ok`, the last good values are held (at first the initial values of the model file); `status` says which it is.
 /// Samples are averaged over blocks of 200; the mean of a steady one is an operating point, and an estimate is new with each of them.
 /// The status is singular, too, where a combination of unknowns shows in the operating points by no more than four times what their means are
-/// uncertain by: the declared noise, and half of what a steady block may drift. Points at one speed or one current do not tell all unknowns.
+/// uncertain by: the declared noise, and half of what a steady block may drift; more where residuals say that it is more. Points at one speed or one current
+/// do not tell all unknowns.
 ///
 /// Contract: no heap, no exceptions, no virtual calls, no loops whose length depends on data (libm's functions aside). Trivially
 /// copyable; instances are independent; tables are constant and shared. One thread or interrupt may call push() while another
 /// calls estimate(): an estimate() that more than 3 pushes overtake returns the one before. reset() needs both at rest.
-/// Cost: 865 multiply-adds in push(), 0 in estimate(), besides one solve of 2 x 8. The solve finds the real
-/// roots of polynomials, 9461 multiply-adds and divisions at most, with 1016 bytes of stack.
-/// Memory: 4072 bytes an instance, 8 bytes of tables.
+/// Cost: 1553 multiply-adds in push(), 0 in estimate(), besides one solve of 2 x 8. The solve finds the real
+/// roots of polynomials, 9595 multiply-adds and divisions at most, with 1216 bytes of stack.
+/// uncertainty(), outside that budget: up to 3466 multiply-adds, 5536 bytes of stack.
+/// Memory: 10432 bytes an instance, 8 bytes of tables.
 class PmsmSensorless {
 public:
     using Scalar = double;
@@ -60,11 +62,27 @@ public:
         Scalar K;   ///< [N.m/A]
     };
 
+    /// One number per estimated parameter.
+    struct Deviations {
+        Scalar R;   ///< [ohm]
+        Scalar f_v;   ///< [N.m.s]
+        Scalar C_r;   ///< [N.m]
+        Scalar L;   ///< [H]
+        Scalar K;   ///< [N.m/A]
+    };
+
+    /// What the declared noise of the sensors does to the estimate.
+    struct Uncertainty {
+        Status status;     ///< of the estimate that it is about; the numbers are infinite unless ok
+        Deviations sd;     ///< standard deviations
+        Deviations bias;   ///< expected estimate minus truth, what of it does not shrink with the number of points
+    };
+
     PmsmSensorless() noexcept { reset(); }
 
     /// Forgets everything.
     void reset() noexcept {
-        algest::reset(pmsm_sensorless_tables::blueprint, memory());
+        algest::reset_points(pmsm_sensorless_tables::blueprint, memory());
         held_.status = Status::filling;
         held_.condition = std::numeric_limits<Scalar>::infinity();
         held_.R = 0x1.8p+1;
@@ -79,7 +97,7 @@ public:
 
     /// Takes one sample. A value that is not finite or outside its limits is refused, and the windows restart.
     void push(const Sample& s) noexcept {
-        Scalar scratch[push_scratch(rows, unknowns)];
+        Scalar scratch[push_scratch(rows, unknowns) + all_change_products(pmsm_sensorless_tables::blueprint.points)];
         if (!(std::isfinite(s.v_a) && std::isfinite(s.v_b) && std::isfinite(s.i_a) && std::isfinite(s.i_b) && std::isfinite(s.theta_r) && std::isfinite(s.omega_r))) {
             refuse(scratch);
             return;
@@ -182,12 +200,12 @@ public:
             refuse(scratch);
             return;
         }
-        algest::push(pmsm_sensorless_tables::blueprint, memory(), signals, scratch);
+        algest::push_point(pmsm_sensorless_tables::blueprint, memory(), signals, scratch);
     }
 
     /// Solves with the windows as they are now.
     Estimate estimate() noexcept {
-        Scalar scratch[estimate_scratch(2, unknowns) + elimination_scratch(pmsm_sensorless_tables::blueprint.elimination) + above_noise_scratch(unknowns)];
+        Scalar scratch[point_scratch(pmsm_sensorless_tables::blueprint)];
         Scalar lumped[8];
         const std::uint32_t now = __atomic_load_n(&progress_.sequence, __ATOMIC_ACQUIRE);
         if (now == solved_) return held_;   // no operating point since
@@ -210,6 +228,33 @@ public:
         return held_;
     }
 
+    /// Solves with the windows as they are now, and says how far the declared noise may have moved the solution: a 95 percent interval
+    /// is value - bias +- 1.96 sd. The errors of operating points count as independent.
+    /// Errors of the means count as declared, or as larger as residuals say. If an operating point ends while it runs, the status is filling.
+    /// Call it where estimate() may be called, or on a copy.
+    Uncertainty uncertainty() noexcept {
+        Scalar scratch[point_uncertainty_scratch(pmsm_sensorless_tables::blueprint)];
+        Scalar lumped[8];
+        Scalar covariance[packed_size(5)];
+        Scalar lumped_bias[5];
+        constexpr Scalar none = std::numeric_limits<Scalar>::infinity();
+        Uncertainty out = { Status::filling, { none, none, none, none, none }, { none, none, none, none, none } };
+        const Latest<Scalar> latest = algest::uncertainty(pmsm_sensorless_tables::blueprint, memory(), scratch, lumped, covariance, lumped_bias);
+        out.status = latest.status;
+        if (!latest.current || latest.status != Status::ok) return out;
+        out.sd.R = std::sqrt(covariance[packed_index(5, 0, 0)]);
+        out.bias.R = lumped_bias[0];
+        out.sd.f_v = std::sqrt(covariance[packed_index(5, 1, 1)]);
+        out.bias.f_v = lumped_bias[1];
+        out.sd.C_r = std::sqrt(covariance[packed_index(5, 2, 2)]);
+        out.bias.C_r = lumped_bias[2];
+        out.sd.L = std::sqrt(covariance[packed_index(5, 3, 3)]);
+        out.bias.L = lumped_bias[3];
+        out.sd.K = std::sqrt(covariance[packed_index(5, 4, 4)]);
+        out.bias.K = lumped_bias[4];
+        return out;
+    }
+
     /// push(s), then estimate().
     Estimate step(const Sample& s) noexcept {
         push(s);
@@ -226,13 +271,13 @@ private:
     Memory<Scalar> memory() noexcept { return {rings_, sums_, published_, &progress_, nullptr, nullptr}; }
 
     void refuse(Scalar* scratch) noexcept {
-        algest::push(pmsm_sensorless_tables::blueprint, memory(), static_cast<const Scalar*>(nullptr), scratch);
+        algest::push_point(pmsm_sensorless_tables::blueprint, memory(), static_cast<const Scalar*>(nullptr), scratch);
         point_ = SteadyProgress{};
     }
 
     Scalar rings_[ring_scalars(32, ring_length(samples, pmsm_sensorless_tables::blueprint.kept))] = {};
-    Scalar sums_[sum_scalars(solve, unknowns, instants, true)] = {};
-    Scalar published_[published_scalars(solve, unknowns, true)] = {};
+    Scalar sums_[sum_scalars(pmsm_sensorless_tables::blueprint.points, unknowns)] = {};
+    Scalar published_[published_scalars(pmsm_sensorless_tables::blueprint.points, unknowns)] = {};
     Scalar steady_[steady_scalars(5)] = {};
     Estimate held_ = {};
     Progress progress_ = {};
@@ -243,7 +288,7 @@ private:
 
 static_assert(std::is_trivially_copyable<PmsmSensorless>::value, "");
 // Where a double is aligned to less than its size (32-bit x86) the layout is another one.
-static_assert(alignof(double) != sizeof(double) || sizeof(PmsmSensorless) == 4072, "the size that the comment above states");
+static_assert(alignof(double) != sizeof(double) || sizeof(PmsmSensorless) == 10432, "the size that the comment above states");
 
 }  // namespace generated
 }  // namespace algest

@@ -77,6 +77,11 @@ inline constexpr NoiseChannel<double> noise[20] = {
     { 4, 11, 31, 0, 0x1.999999999999ap-6 },   // i_g in i_g^2*omega_r^2
 };
 
+// The rows of an operating point: where the columns of each begin, its columns (8: the known side), in which sum its residuals are counted.
+inline constexpr std::uint16_t first_columns[3] = { 0, 4, 10 };
+inline constexpr std::uint16_t point_columns[10] = { 0, 1, 2, 8, 3, 4, 5, 6, 7, 8 };
+inline constexpr std::uint16_t point_groups[2] = { 0, 1 };
+
 // What the columns of the rows mean, and the resultants that leave one parameter of each stage (elimination.hpp).
 inline constexpr EliminationStage stages[2] = {
     {0, 3, 0, 3, 0, 0, no_parameter, no_parameter, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {3, 5, 3, 1, 0, 4, no_parameter, 3, 0, 0, 2, 0, 0, 0, 0, 0, 0},
@@ -94,7 +99,7 @@ inline constexpr std::uint8_t exponents[20] = {
     0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 2,
     0, 0, 0, 0,
 };
-inline constexpr double sizes[5] = {
+inline constexpr double parameter_sizes[5] = {
     0x1p+2, 0x1p-12, 0x1p-4, 0x1p-7, 0x1p-2,
 };
 
@@ -106,8 +111,9 @@ inline constexpr Blueprint<double> blueprint = {
     {nullptr, 0}, {false, {}, {}, {}},
     { 1, 32, 0, 8, {nullptr, 0}, {nullptr, 0}, {nullptr, 0} }, false,
     { 5, {stages, 2}, {alone, 4}, {column_of, 4}, {coefficient_of, 4}, {exponents, 20},
-      {nullptr, 0}, {nullptr, 0}, {sizes, 5} }, false, 0,
-    {nullptr, 0}, {nullptr, 0}, 0x1p+4
+      {nullptr, 0}, {nullptr, 0}, {parameter_sizes, 5} }, false, 0,
+    {nullptr, 0}, {nullptr, 0}, 0x1p+4, 0, 0,
+    { {first_columns, 3}, {point_columns, 10}, {point_groups, 2}, 2 }
 };
 
 }  // namespace pmsm_sensorless_tables

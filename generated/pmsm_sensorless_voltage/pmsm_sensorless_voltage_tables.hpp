@@ -77,6 +77,11 @@ inline constexpr NoiseChannel<double> noise[20] = {
     { 4, 11, 31, 0, 0x1.cac083126e979p-9 },   // i_g in i_g^2*omega_r^2
 };
 
+// The rows of an operating point: where the columns of each begin, its columns (8: the known side), in which sum its residuals are counted.
+inline constexpr std::uint16_t first_columns[3] = { 0, 4, 10 };
+inline constexpr std::uint16_t point_columns[10] = { 5, 6, 7, 8, 0, 1, 2, 3, 4, 8 };
+inline constexpr std::uint16_t point_groups[2] = { 1, 0 };
+
 // What the columns of the rows mean, and the resultants that leave one parameter of each stage (elimination.hpp).
 inline constexpr EliminationStage stages[2] = {
     {0, 5, 0, 1, 0, 4, 0, 3, 0, 2, 2, 0, 13, 0, 5, 9, 3}, {5, 3, 1, 2, 4, 1, no_parameter, no_parameter, 0, 0, 0, 13, 0, 65, 0, 0, 0},
@@ -104,7 +109,7 @@ inline constexpr std::uint8_t factors[65] = {
     5, 5, 2, 2, 4, 4, 6, 2, 3, 4, 4, 5, 3, 3, 4, 4,
     4,
 };
-inline constexpr double sizes[5] = {
+inline constexpr double parameter_sizes[5] = {
     0x1p+2, 0x1p-12, 0x1p-4, 0x1p-7, 0x1p-2,
 };
 
@@ -116,8 +121,9 @@ inline constexpr Blueprint<double> blueprint = {
     {nullptr, 0}, {false, {}, {}, {}},
     { 1, 32, 0, 8, {nullptr, 0}, {nullptr, 0}, {nullptr, 0} }, false,
     { 5, {stages, 2}, {alone, 3}, {column_of, 5}, {coefficient_of, 5}, {exponents, 25},
-      {resultant, 13}, {factors, 65}, {sizes, 5} }, false, 0,
-    {nullptr, 0}, {nullptr, 0}, 0x1p+4
+      {resultant, 13}, {factors, 65}, {parameter_sizes, 5} }, false, 0,
+    {nullptr, 0}, {nullptr, 0}, 0x1p+4, 0, 0,
+    { {first_columns, 3}, {point_columns, 10}, {point_groups, 2}, 2 }
 };
 
 }  // namespace pmsm_sensorless_voltage_tables

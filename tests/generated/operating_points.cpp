@@ -60,7 +60,7 @@ TEMPLATE_TEST_CASE("operating points: the class and replay agree to the last bit
     lab::HostEstimator<double> host(plan);
     const auto estimator = std::make_unique<TestType>();
     const auto copy = std::make_unique<TestType>();
-    int ok = 0;
+    int ok = 0, certain = 0;
     for (int k = 0; k < 60 * block; ++k) {
         Inputs<TestType> in = motor<TestType>(k);
         if (k % 1000 == 517) in[2] = std::numeric_limits<double>::quiet_NaN();
@@ -72,11 +72,19 @@ TEMPLATE_TEST_CASE("operating points: the class and replay agree to the last bit
         REQUIRE(std::memcmp(&found.condition, &condition, sizeof condition) == 0);
         REQUIRE(std::memcmp(found.values.data(), host.parameters().data(), sizeof found.values) == 0);
         if (k >= 3333) REQUIRE(step(*copy, in).same_bits(found));
+        if (k % 331 == 330) {
+            const auto u = estimator->uncertainty();
+            REQUIRE(u.status == host.uncertainty());
+            certain += u.status == Status::ok ? 1 : 0;
+            REQUIRE((u.status != Status::ok || std::memcmp(&u.sd, host.deviation().data(), sizeof u.sd) == 0));
+            REQUIRE((u.status != Status::ok || std::memcmp(&u.bias, host.bias().data(), sizeof u.bias) == 0));
+        }
         if (k % 1000 == 517) REQUIRE(status == Status::rejected);
         if (k % 1000 == 518 && k > 1000) REQUIRE(status == Status::filling);
         ok += status == Status::ok ? 1 : 0;
     }
     CHECK(ok > 15 * block);
+    CHECK(certain > 5);
     CHECK(host.points() >= 14);   // of each stretch of three blocks one whole block at least is left, if a refused sample falls into it
 }
 
@@ -114,6 +122,12 @@ TEST_CASE("operating points: two compilers, both scalars, the bits of replay") {
             const Status status = host.step(in.data());
             REQUIRE(found[0] == static_cast<double>(static_cast<int>(status)));
             REQUIRE(std::memcmp(found.data() + 2, host.parameters().data(), host.parameters().size() * sizeof(double)) == 0);
+            if (k % 331 == 330 && host.uncertainty() == Status::ok) {
+                const std::vector<double> of_class = compiled.uncertainty();
+                REQUIRE(of_class[0] == static_cast<double>(static_cast<int>(Status::ok)));
+                REQUIRE(std::memcmp(of_class.data() + 1, host.deviation().data(), host.deviation().size() * sizeof(double)) == 0);
+                REQUIRE(std::memcmp(of_class.data() + 1 + host.deviation().size(), host.bias().data(), host.bias().size() * sizeof(double)) == 0);
+            }
             std::array<float, 6> single;
             for (std::size_t i = 0; i < single.size(); ++i) single[i] = static_cast<float>(in[i]);
             const std::vector<float> found_narrow = compiled_narrow.step(single.data());

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Must-show 2, 3 and 4 of issue 6: the motor of Delpoux, Bodson, Floquet 2014 without sensors on its shaft, from 88 operating points.
-#include "examples/sensorless_motor/equilibrium.hpp"
-
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
 
-#include <random>
-
 #include "generator/elimination.hpp"
 #include "lab/operating_points.hpp"
-#include "tests/plants/changed_model.hpp"
-#include "tests/plants/estimates.hpp"
+#include "tests/plants/sensorless_points.hpp"
 
 using namespace algest;
 using namespace algest::plants;
@@ -20,48 +15,7 @@ using sensorless_motor::operating_points;
 
 namespace {
 
-const std::string second_method = "pmsm_sensorless";
-const std::string first_method = "pmsm_sensorless_voltage";
-constexpr int R = 0, f_v = 1, C_r = 2, L = 3, K = 4;
 const sensorless_motor::Motor motor;
-const std::vector<double> truth = {motor.R, motor.f_v, motor.C_r, motor.L, motor.K};
-
-/// Four samples make a point: what is constant needs no more.
-std::string text_of(const std::string& model, const std::vector<std::pair<std::string, std::string>>& changes = {}) {
-    return changed(changed(committed_model(model), {{"window = 0.2", "window = 4e-3"}}), changes);
-}
-
-/// Phase quantities while the commanded angle turns; a point has four samples.
-std::vector<std::vector<double>> samples(const std::vector<OperatingPoint>& points) {
-    std::vector<std::vector<double>> out;
-    double angle = 0.1;
-    for (const OperatingPoint& p : points) {
-        for (int k = 0; k < 4; ++k, angle += 1e-3 * p.omega) {
-            const double c = std::cos(motor.n_p * angle), s = std::sin(motor.n_p * angle);
-            out.push_back({p.v_f * c - p.v_g * s, p.v_f * s + p.v_g * c, p.i_f * c - p.i_g * s, p.i_f * s + p.i_g * c, angle, p.omega});
-        }
-    }
-    return out;
-}
-
-std::vector<OperatingPoint> noisy(std::vector<OperatingPoint> points, unsigned seed) {
-    std::mt19937 bits(seed);
-    const auto error = [&] { return 0.03 * (2.0 * static_cast<double>(bits()) / 4294967295.0 - 1.0); };   // uniform +-30 mA
-    for (OperatingPoint& p : points) {
-        p.i_f += error();
-        p.i_g += error();
-    }
-    return points;
-}
-
-Estimate last(const plan::Plan& plan, const std::vector<OperatingPoint>& points) { return estimates(plan, samples(points)).back(); }
-
-/// The largest relative error of R, L, K.
-double worst_of(const Estimate& e) {
-    double out = 0.0;
-    for (const int p : {R, L, K}) out = std::max(out, relative_error(e.parameters[static_cast<std::size_t>(p)], truth[static_cast<std::size_t>(p)]));
-    return out;
-}
 
 /// Median relative errors of R, L, K over seeds; every seed must be ok.
 std::vector<double> median_errors(const plan::Plan& plan, const std::vector<OperatingPoint>& points, unsigned seeds) {
@@ -72,7 +26,7 @@ std::vector<double> median_errors(const plan::Plan& plan, const std::vector<Oper
         const int wanted[] = {R, L, K};
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t p = static_cast<std::size_t>(wanted[k]);
-            all[k].push_back(relative_error(e.parameters[p], truth[p]));
+            all[k].push_back(relative_error(e.parameters[p], sensorless_truth[p]));
         }
     }
     return {median(all[0]), median(all[1]), median(all[2])};
@@ -89,35 +43,37 @@ TEST_CASE("sensorless: exact averages of 88 equilibria give the parameters, both
         REQUIRE(points.size() == 88);
         for (const std::string& method : {first_method, second_method}) {
             INFO(method << ", command at " << alpha);
-            const Estimate e = last(plan_of(text_of(method)), points);
+            const Estimate e = last(plan_of(sensorless_text(method)), points);
             REQUIRE(e.status == Status::ok);
-            for (const int p : {R, L, K}) CHECK(relative_error(e.parameters[static_cast<std::size_t>(p)], truth[static_cast<std::size_t>(p)]) < 1e-12);
+            for (const int p : {R, L, K}) CHECK(sensorless_error(e, p) < 1e-12);
             // Friction is what the first method's resistance leaves of the power: it multiplies an error of R by 150.
             for (const int p : {f_v, C_r}) {
-                CHECK(relative_error(e.parameters[static_cast<std::size_t>(p)], truth[static_cast<std::size_t>(p)]) < (method == second_method ? 1e-12 : 1.5e-10));
+                CHECK(sensorless_error(e, p) < (method == second_method ? 1e-12 : 1.5e-10));
             }
         }
     }
 }
 
 TEST_CASE("sensorless: only a rotated command shows the misprinted sign of (34)") {
-    const plan::Plan wrong = plan_of(text_of(second_method, {misprint}));
+    const plan::Plan wrong = plan_of(sensorless_text(second_method, {untested, misprint}));
     CHECK(relative_error(last(wrong, operating_points(motor, 0)).parameters[L], motor.L) < 1e-12);
     const Estimate rotated = last(wrong, operating_points(motor, 0.6));
     CHECK(relative_error(rotated.parameters[L], motor.L) > 0.5);
     CHECK(relative_error(rotated.parameters[K], motor.K) > 0.5);
+    CHECK(last(plan_of(sensorless_text(second_method, {misprint})), operating_points(motor, 0.6)).status == Status::singular);   // residuals tell
 }
 
 TEST_CASE("sensorless: averages with 30 mA of error, medians over 200 seeds, beside the five-parameter least squares") {
     const std::vector<OperatingPoint> points = operating_points(motor, 0);
-    const std::vector<double> second = median_errors(plan_of(text_of(second_method)), points, 200);
+    const std::vector<double> second = median_errors(plan_of(sensorless_text(second_method)), points, 200);
     CHECK(second[0] < 5e-3);
     CHECK(second[1] < 1.5e-2);
     CHECK(second[2] < 2e-2);
-    const std::vector<double> first = median_errors(plan_of(text_of(first_method)), points, 200);
+    // Such errors are four times what the first method is content with, and its R 14 percent off: compared are its numbers, which are not ok.
+    const std::vector<double> first = median_errors(plan_of(sensorless_text(first_method, {untested})), points, 200);
 
     // (34) and (35) with R, R^2, L, L^2, K^2 as five unknowns of their own; the friction from the power as before.
-    const plan::Plan five = plan_of(text_of(first_method, {{"- R^2*", "- R_2*"}, {"n_p^2*L^2*", "n_p^2*L_2*"}, {"+ K^2*", "+ K_2*"}, {"K = { unit = \"N.m/A\", initial = 0.3, min = 0 }", "K_2 = { unit = \"N^2.m^2/A^2\", initial = 0.09 }\nR_2 = { unit = \"ohm^2\", initial = 9 }\nL_2 = { unit = \"H^2\", initial = 1e-4 }"}}));
+    const plan::Plan five = plan_of(sensorless_text(first_method, {untested, {"- R^2*", "- R_2*"}, {"n_p^2*L^2*", "n_p^2*L_2*"}, {"+ K^2*", "+ K_2*"}, {"K = { unit = \"N.m/A\", initial = 0.3, min = 0 }", "K_2 = { unit = \"N^2.m^2/A^2\", initial = 0.09 }\nR_2 = { unit = \"ohm^2\", initial = 9 }\nL_2 = { unit = \"H^2\", initial = 1e-4 }"}}));
     std::vector<std::vector<double>> all(3);
     for (unsigned seed = 0; seed < 200; ++seed) {
         const Estimate e = last(five, noisy(points, seed));
@@ -141,7 +97,7 @@ TEST_CASE("sensorless: degenerate sets of points give no numbers, with errors an
     const std::vector<OperatingPoint> one_point(8, all[20]);
     std::vector<OperatingPoint> two_points = {all[0], all[40]};
     for (const std::string& method : {first_method, second_method}) {
-        const plan::Plan plan = plan_of(text_of(method));
+        const plan::Plan plan = plan_of(sensorless_text(method));
         for (const auto& points : {one_speed, one_point, two_points}) {
             INFO(method << ", " << points.size() << " points");
             for (const auto& measured : {points, noisy(points, 1)}) {
@@ -154,40 +110,8 @@ TEST_CASE("sensorless: degenerate sets of points give no numbers, with errors an
     }
 }
 
-TEST_CASE("sensorless: one current at 22 speeds gives no wrong numbers, over 200 seeds") {
-    // The tolerance of the means says what their errors are. That of the first method is seven times smaller, and these are not so good.
-    const std::vector<std::pair<std::string, std::string>> as_good_as_they_are = {{"steady = 0.02 }\nv_g", "steady = 0.2 }\nv_g"}, {"steady = 0.02 }\ni_f", "steady = 0.2 }\ni_f"},
-                                                                                 {"steady = 0.007 }\ni_g", "steady = 0.05 }\ni_g"}, {"steady = 0.007 }\n\n", "steady = 0.05 }\n\n"}};
-    const std::vector<OperatingPoint> all = operating_points(motor, 0);
-    for (const std::string& method : {first_method, second_method}) {
-        const auto& changes = method == first_method ? as_good_as_they_are : std::vector<std::pair<std::string, std::string>>{};
-        const plan::Plan plan = plan_of(text_of(method, changes));
-        const plan::Plan without = plan_of(text_of(method, {{"functional = \"average\"", "functional = \"average\"\nuncertainty = false"}}));
-        for (std::size_t current = 0; current < 4; ++current) {
-            std::vector<OperatingPoint> points;
-            for (std::size_t k = current; k < all.size(); k += 4) points.push_back(all[k]);
-            int ok = 0, wrong_without = 0;
-            double worst = 0.0;
-            for (unsigned seed = 0; seed < 200; ++seed) {
-                const std::vector<OperatingPoint> measured = noisy(points, seed);
-                const Estimate e = last(plan, measured), untested = last(without, measured);
-                wrong_without += untested.status == Status::ok && worst_of(untested) > 0.3 ? 1 : 0;
-                if (e.status != Status::ok) continue;
-                ++ok;
-                worst = std::max(worst, worst_of(e));
-            }
-            fmt::print("{}, I_max {} A: {} of 200 ok, worst error {:.3f}; without the test against noise {} of 200 ok and more than 30 percent wrong\n", method,
-                       1.5 + 0.5 * static_cast<double>(current), ok, worst, wrong_without);
-            // What is ok rises four deviations above the noise of one row: a sixteenth of attenuation, and a scatter of 1/4 over the root of 22 rows,
-            // 5 percent, of which three may come together; the wrong minimum is 30 to 70 percent off.
-            CHECK(worst < 0.25);
-            CHECK(wrong_without > 5);
-        }
-    }
-}
-
 TEST_CASE("sensorless: what is missing is named") {
-    const plan::Plan plan = plan_of(text_of(second_method));
+    const plan::Plan plan = plan_of(sensorless_text(second_method));
     const std::vector<OperatingPoint> all = operating_points(motor, 0);
     lab::OperatingPoints points;
     points.quantities = plan.steady->averaged.size();
@@ -195,11 +119,16 @@ TEST_CASE("sensorless: what is missing is named") {
     for (std::size_t k = 20; k < 24; ++k) points.means.insert(points.means.end(), {all[k].omega, all[k].v_f, all[k].v_g, all[k].i_f, all[k].i_g});
     CHECK(lab::what_is_missing(plan, points, false) == "not identifiable from these data: needs a second value of omega_r, the same at all of 4 operating points");
     CHECK_FALSE(lab::what_is_missing(plan, points, true));
+    points.means.clear();   // one current, errors of 30 mA: the power still tells R and friction, the voltages do not tell L from K
+    for (const OperatingPoint& p : noisy(at_one_current(all, 2), 1)) points.means.insert(points.means.end(), {p.omega, p.v_f, p.v_g, p.i_f, p.i_g});
+    const std::string text = lab::what_is_missing(plan, points, false).value_or("");
+    INFO(text);
+    CHECK(text.find("22 operating points do not tell L, K apart by more than what their means are uncertain by") != std::string::npos);
 }
 
 TEST_CASE("sensorless: a drifting block and an unmarked one are no operating points") {
     const std::vector<OperatingPoint> all = operating_points(motor, 0);
-    const plan::Plan plan = plan_of(text_of(second_method));
+    const plan::Plan plan = plan_of(sensorless_text(second_method));
     lab::HostEstimator<double> estimator(plan);
     OperatingPoint drifting = all[0];
     for (int k = 0; k < 40; ++k, drifting.omega += 0.02) {   // 0.06 rad/s a block, and 0.01 are allowed
@@ -207,7 +136,7 @@ TEST_CASE("sensorless: a drifting block and an unmarked one are no operating poi
     }
     CHECK(estimator.points() == 0);
 
-    const plan::Plan marked = plan_of(text_of(second_method, {{"stages =", "stretches = \"point\"\nstages ="}, {"omega_r = {", "point = { unit = \"1\" }\nomega_r = {"}}));
+    const plan::Plan marked = plan_of(sensorless_text(second_method, {{"stages =", "stretches = \"point\"\nstages ="}, {"omega_r = {", "point = { unit = \"1\" }\nomega_r = {"}}));
     lab::HostEstimator<double> by_mark(marked);
     const std::vector<std::vector<double>> all_samples = samples(all);
     for (std::size_t k = 0; k < all_samples.size(); ++k) {
@@ -222,7 +151,7 @@ TEST_CASE("sensorless: a drifting block and an unmarked one are no operating poi
 TEST_CASE("sensorless: the candidates are told apart as in table A.5") {
     const std::vector<OperatingPoint> points = operating_points(motor, 0);
     for (const std::string& method : {first_method, second_method}) {
-        const plan::Plan plan = plan_of(text_of(method));
+        const plan::Plan plan = plan_of(sensorless_text(method));
         lab::HostEstimator<double> estimator(plan);
         for (const std::vector<double>& sample : samples(noisy(points, 3))) (void)estimator.step(sample.data());
         const auto candidates = lab::named_candidates(plan, estimator.candidates());

@@ -65,10 +65,10 @@ struct CountedTables {
     }
 
     long counted(std::vector<Counted> triangle, int columns) const {
-        std::vector<Counted> scratch(static_cast<std::size_t>(elimination_scratch(elimination)));
+        std::vector<Counted> scratch(static_cast<std::size_t>(elimination_scratch(elimination, true)));
         std::vector<Counted> solution(static_cast<std::size_t>(elimination.parameters), Counted(0));
         Counted::operations = 0;
-        std::vector<Counted> noise(static_cast<std::size_t>(packed_size(columns)), Counted(1e-3));
+        std::vector<Counted> noise(static_cast<std::size_t>(point_noise_scalars(columns, elimination.stages.size)), Counted(1e-3));
         (void)eliminate(elimination, triangle.data(), columns, scratch.data(), solution.data(), {noise.data(), Counted(16)});
         return Counted::operations;
     }

@@ -11,6 +11,7 @@
 #include "algest/noise_gram.hpp"
 #include "algest/packed.hpp"
 #include "algest/plane_polynomial.hpp"
+#include "algest/point_noise.hpp"
 #include "algest/polynomial_roots.hpp"
 #include "algest/triangle_update.hpp"
 #include "algest/triangular.hpp"
@@ -90,11 +91,13 @@ struct CandidateList {
     int count;
 };
 
-/// What noise makes of the columns, packed as add_noise sums it, and how far the rows must stand above it; nullptr: not asked.
+/// What errors of the means make of operating points, as add_point sums it with the stages as groups, and how far the rows must stand above it; nullptr:
+/// not asked. Then how many times the residuals are what these errors explain is written to `excess`.
 template <class S>
 struct NoiseMargin {
-    const S* gram;
+    const S* sums;
     S margin;
+    S* excess = nullptr;
 };
 
 namespace detail {
@@ -119,7 +122,7 @@ constexpr int stage_scratch(const EliminationStage& s) noexcept {
     const int degree = s.y == no_parameter ? 0 : degree_in_y(s);
     const int roots = 3 * (degree + 1) + real_roots_scratch(degree) + 2 * root_places(degree);
     const int inner = s.x == no_parameter ? 0 : (s.degree_of_first + 1) + real_roots_scratch(s.degree_of_first) + 2 * root_places(s.degree_of_first);
-    const int judged = s.alone + triangle_scalars(n) + (n + 1) + solve_triangle_scratch(n) + n + n * n + 2 * s.columns * n;
+    const int judged = s.alone + triangle_scalars(n) + (n + 1) + solve_triangle_scratch(n) + n + 2 * s.columns * n;
     return s.summands + s.columns * plane + gradient + roots + inner + judged;
 }
 
@@ -400,21 +403,24 @@ inline void column_slopes(const Trial<S>& t, const S* values, S x, S y, S* slope
     }
 }
 
-/// True where the rows see every combination of the stage's unknowns by more than noise does. work: as condition_at left it, which has J'J of
-/// the stage in its triangle; values: of the summands.
+/// Scalars that a stage leaves for the test against noise: the triangle of its J'J, then what noise makes of it.
+constexpr int kept_of_stage(const EliminationStage& s) noexcept { return triangle_scalars(unknowns_of(s)) + unknowns_of(s) * unknowns_of(s); }
+
+/// Keeps J'J of the stage, which condition_at left in work, and what noise makes of it: slopes' N slopes. values: of the summands.
 template <class S>
-inline bool stage_rises_above(const Trial<S>& t, NoiseMargin<S> noise, const S* values, S x, S y, S* work) noexcept {
+inline void keep_for_noise(const Trial<S>& t, const S* sums, const S* values, S x, S y, S* work, S* kept) noexcept {
     const EliminationStage& s = t.s;
     const int n = unknowns_of(s);
     const int width = t.width - 1;
-    S* const of_unknowns = work + triangle_scalars(n) + (n + 1) + solve_triangle_scratch(n) + n;
-    S* const slopes = of_unknowns + n * n;
+    S* const of_unknowns = kept + triangle_scalars(n);
+    S* const slopes = work + triangle_scalars(n) + (n + 1) + solve_triangle_scratch(n) + n;
     S* const half = slopes + s.columns * n;   // N times the slopes
+    for (int k = 0; k < triangle_scalars(n); ++k) kept[k] = work[k];
     column_slopes(t, values, x, y, slopes);
     for (int r = 0; r < s.columns; ++r) {
         for (int u = 0; u < n; ++u) {
             S sum = S(0);
-            for (int c = 0; c < s.columns; ++c) sum += noise.gram[packed_index(width, s.first_column + (r < c ? r : c), s.first_column + (r < c ? c : r))] * slopes[c * n + u];
+            for (int c = 0; c < s.columns; ++c) sum += sums[packed_index(width, s.first_column + (r < c ? r : c), s.first_column + (r < c ? c : r))] * slopes[c * n + u];
             half[r * n + u] = sum;
         }
     }
@@ -425,25 +431,94 @@ inline bool stage_rises_above(const Trial<S>& t, NoiseMargin<S> noise, const S* 
             of_unknowns[u * n + v] = sum;
         }
     }
-    return triangle_rises_above(work, n, noise.margin, of_unknowns);
 }
 
-/// Multiply-adds and divisions of stage_rises_above, at most.
+/// The powers of x and y in a summand, at a point.
 template <class S>
-constexpr long stage_rises_above_cost(const Elimination<S>& e, const EliminationStage& s) noexcept {
+inline S powers_at(const EliminationStage& s, const std::uint8_t* exponents, S x, S y) noexcept {
+    S out = S(1);
+    for (int k = 0; s.x != no_parameter && k < exponents[s.x]; ++k) out *= x;
+    for (int k = 0; s.y != no_parameter && k < exponents[s.y]; ++k) out *= y;
+    return out;
+}
+constexpr long powers_at_cost(const EliminationStage& s, const std::uint8_t* exponents) noexcept {
+    return (s.x != no_parameter ? exponents[s.x] : 0) + (s.y != no_parameter ? exponents[s.y] : 0);
+}
+
+/// The squared residuals that come of a parameter which an earlier stage found and which is off by 1/margin of itself: so much attenuation passes there.
+template <class S>
+inline S carried_residuals(const Trial<S>& t, const S* values, S x, S y, int parameter, S margin) noexcept {
+    const EliminationStage& s = t.s;
+    S out = S(0);
+    if (parameter == s.x || parameter == s.y) return out;
+    for (int r = s.alone; r < s.columns; ++r) {
+        S change = S(0);
+        for (int k = 0; k < s.summands; ++k) {
+            const std::uint8_t* const exponents = t.e.exponents.data + (s.first_summand + k) * t.e.parameters;
+            const int column = t.e.column_of[s.first_summand + k];
+            if (exponents[parameter] == 0 || column < r) continue;
+            change += t.triangle[packed_index(t.width, s.first_column + r, s.first_column + column)] * (S(exponents[parameter]) * values[k] * powers_at(s, exponents, x, y));
+        }
+        change /= margin;
+        out += change * change;
+    }
+    return out;
+}
+
+template <class S>
+constexpr long carried_residuals_cost(const Elimination<S>& e, const EliminationStage& s) noexcept {
+    long out = 0;
+    for (int p = 0; p < e.parameters; ++p) {
+        if (p == s.x || p == s.y) continue;
+        for (int r = s.alone; r < s.columns; ++r) {
+            out += 2;
+            for (int k = 0; k < s.summands; ++k) {
+                const std::uint8_t* const exponents = e.exponents.data + (s.first_summand + k) * e.parameters;
+                if (exponents[p] != 0 && e.column_of[s.first_summand + k] >= r) out += 3 + powers_at_cost(s, exponents);
+            }
+        }
+    }
+    return out;
+}
+
+/// How many times as large the residuals of the stage are as the errors of the means, and of what earlier stages found, explain. work: `columns` scalars.
+template <class S>
+inline S excess_of_stage(const Trial<S>& t, NoiseMargin<S> noise, const S* values, S x, S y, S* work) noexcept {
+    const EliminationStage& s = t.s;
+    S* const u = work;
+    for (int c = 0; c < s.columns; ++c) u[c] = c < s.alone ? S(t.e.alone[s.first_alone + c].coefficient * t.alone[c]) : S(0);
+    for (int k = 0; k < s.summands; ++k) {
+        u[t.e.column_of[s.first_summand + k]] += values[k] * powers_at(s, t.e.exponents.data + (s.first_summand + k) * t.e.parameters, x, y);
+    }
+    S found = noise.sums[group_place(t.width - 1, t.stage) + 1];
+    for (int r = s.alone; r < s.columns; ++r) {
+        const S residual = plane_value(t.rows + r * plane_size(degrees_of(s)), degrees_of(s), x, y);
+        found += residual * residual;
+    }
+    S expected = expected_residuals(noise.sums, t.width - 1, t.stage, s.first_column, s.columns, u);
+    for (int p = 0; p < t.e.parameters; ++p) expected += carried_residuals(t, values, x, y, p, noise.margin);
+    return residual_excess(found, expected);
+}
+
+/// Multiply-adds and divisions of the test against noise of one stage, at most.
+template <class S>
+constexpr long stage_above_noise_cost(const Elimination<S>& e, const EliminationStage& s) noexcept {
     const long n = unknowns_of(s);
     long slopes = 0;
+    long powers = 0;
     for (int k = 0; k < s.summands; ++k) {
         const std::uint8_t* const exponents = e.exponents.data + (s.first_summand + k) * e.parameters;
         const int degree = (s.x == no_parameter ? 0 : exponents[s.x]) + (s.y == no_parameter ? 0 : exponents[s.y]);
         slopes += degree == 0 ? 0 : 2L * (degree + 2);
+        powers += 1 + powers_at_cost(s, exponents);
     }
-    return slopes + s.columns * s.columns * n + s.columns * n * n + triangle_rises_above_cost(unknowns_of(s));
+    const long excess = s.alone + powers + (s.columns - s.alone) * (plane_value_cost(degrees_of(s)) + 1) + expected_residuals_cost(s.columns) + carried_residuals_cost(e, s) + 1;
+    return slopes + s.columns * s.columns * n + s.columns * n * n + triangle_rises_above_cost(unknowns_of(s)) + excess + 1;
 }
 
-/// Solves one stage; writes its parameters, in their sizes.
+/// Solves one stage; writes its parameters, in their sizes. kept: with a margin over noise, kept_of_stage scalars for its test.
 template <class S>
-inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triangle, int width, NoiseMargin<S> noise, S* scratch, S* parameters,
+inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triangle, int width, NoiseMargin<S> noise, S* scratch, S* kept, S* parameters,
                              CandidateList<S>* candidates) noexcept {
     const EliminationStage& s = e.stages[stage];
     const Solved<S> singular = {false, std::numeric_limits<S>::infinity()};
@@ -461,8 +536,11 @@ inline Solved<S> solve_stage(const Elimination<S>& e, int stage, const S* triang
     if (s.x != no_parameter) parameters[s.x] = (s.squares & 1U) != 0U ? S(std::sqrt(t.best.x)) : t.best.x;
     if (s.y != no_parameter) parameters[s.y] = (s.squares & 2U) != 0U ? S(std::sqrt(t.best.y)) : t.best.y;
     const Solved<S> solved = condition_at(t, t.best.x, t.best.y, work);
-    const bool above = noise.gram == nullptr || stage_rises_above(t, noise, values, t.best.x, t.best.y, work);
-    return !answer ? singular : above ? solved : Solved<S>{false, solved.condition};
+    if (noise.sums != nullptr) {
+        keep_for_noise(t, noise.sums, values, t.best.x, t.best.y, work, kept);
+        *noise.excess = larger(*noise.excess, excess_of_stage(t, noise, values, t.best.x, t.best.y, work));
+    }
+    return answer ? solved : singular;
 }
 
 /// Multiply-adds and divisions of solve_stage, at most; products by zero are counted. above_noise: with a margin over noise.
@@ -479,7 +557,7 @@ constexpr long stage_cost(const Elimination<S>& e, int stage, bool above_noise) 
     const long alone = s.alone * (plane_value_cost(degrees) + 2) + s.alone * (s.alone - 1L);
     const long tried = (newton_steps + 1) * error_slopes_cost(s.columns - s.alone, degrees) + newton_steps * 8L + 2 + alone + 2;   // the last two: improve
     const long condition = s.columns * plane_slopes_cost(degrees) + s.alone * (s.alone + 1L) / 2 + add_rows_cost(s.columns, n) + solve_triangle_cost(n) +
-                           (above_noise ? stage_rises_above_cost(e, s) : 0);
+                           (above_noise ? stage_above_noise_cost(e, s) : 0);
     if (s.y == no_parameter) return rows + alone + condition;
 
     const int degree = degree_in_y(s);
@@ -494,12 +572,16 @@ constexpr long stage_cost(const Elimination<S>& e, int stage, bool above_noise) 
 
 }  // namespace detail
 
-/// Scalars of scratch that eliminate needs.
+/// Scalars of scratch that eliminate needs. above_noise: with a margin over noise.
 template <class S>
-constexpr int elimination_scratch(const Elimination<S>& e) noexcept {
+constexpr int elimination_scratch(const Elimination<S>& e, bool above_noise = false) noexcept {
     int most = 0;
-    for (int s = 0; s < e.stages.size; ++s) most = detail::larger_of(most, detail::stage_scratch(e.stages[s]));
-    return most;
+    int kept = 0;
+    for (int s = 0; s < e.stages.size; ++s) {
+        most = detail::larger_of(most, detail::stage_scratch(e.stages[s]));
+        kept += detail::kept_of_stage(e.stages[s]);
+    }
+    return most + (above_noise ? kept : 0);
 }
 
 /// Multiply-adds and divisions of eliminate without a list of candidates, at most: a solve that finds a stage singular early costs a few less.
@@ -514,7 +596,8 @@ constexpr long elimination_cost(const Elimination<S>& e, bool above_noise = fals
 /// `columns` columns. solution: e.parameters entries, in their units. Condition: the worst of the stages'. On `regular == false`, which degenerate data
 /// give, and data that fit no real parameters or two sets of them equally well, the solution is of no use. Limits of parameters do not count: the
 /// smallest error wins, wherever it lies. Nor is it regular, though with a finite condition, where the rows of a stage do not rise above `noise` at its
-/// solution. candidates: nullptr, or where those of the stages are listed, up to the first one without an answer.
+/// solution; and where residuals are larger than noise explains, in whatever stage, noise counts as so much larger everywhere, for the means belong to all.
+/// candidates: nullptr, or where those of the stages are listed, up to the first one without an answer.
 /// Cost: elimination_cost. All places for roots are computed, whatever the data: Newton's steps dominate, D d (newton_steps + 1) rows of about
 /// 8 plane_size multiply-adds for a resultant of degree D and a first extremum equation of degree d in x. Never fails, no allocation.
 template <class S>
@@ -522,10 +605,23 @@ inline Solved<S> eliminate(const Elimination<S>& e, const S* triangle, int colum
                           CandidateList<S>* candidates = nullptr) noexcept {
     const Solved<S> singular = {false, std::numeric_limits<S>::infinity()};
     Solved<S> worst = {true, S(0)};
+    S* const all_kept = scratch + elimination_scratch(e);
+    S excess = S(1);
+    const NoiseMargin<S> of_stages = {noise.sums, noise.margin, &excess};
+    S* kept = all_kept;
     for (int s = 0; s < e.stages.size; ++s) {
-        const Solved<S> solved = detail::solve_stage(e, s, triangle, columns + 1, noise, scratch, solution, worst.regular ? candidates : nullptr);
+        const Solved<S> solved = detail::solve_stage(e, s, triangle, columns + 1, of_stages, scratch, kept, solution, worst.regular ? candidates : nullptr);
         worst = {worst.regular && solved.regular, larger(worst.condition, solved.condition)};
+        if (noise.sums != nullptr) kept += detail::kept_of_stage(e.stages[s]);
     }
+    kept = all_kept;
+    for (int s = 0; noise.sums != nullptr && s < e.stages.size; ++s) {
+        const int n = detail::unknowns_of(e.stages[s]);
+        const bool above = triangle_rises_above(kept, n, noise.margin * excess, kept + triangle_scalars(n));
+        worst.regular = worst.regular && above;
+        kept += detail::kept_of_stage(e.stages[s]);
+    }
+    if (noise.excess != nullptr) *noise.excess = excess;
     for (int p = 0; p < e.parameters; ++p) solution[p] *= e.sizes[p];
     return all_finite(solution, e.parameters) ? worst : singular;
 }

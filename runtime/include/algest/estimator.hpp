@@ -17,6 +17,8 @@
 #include "algest/noise.hpp"
 #include "algest/noise_gram.hpp"
 #include "algest/normalised_rows.hpp"
+#include "algest/point_noise.hpp"
+#include "algest/point_uncertainty.hpp"
 #include "algest/ratio_filter.hpp"
 #include "algest/rows.hpp"
 #include "algest/solve_gram.hpp"
@@ -62,6 +64,7 @@ struct Blueprint {
                                    ///< every combination of its unknowns by this many times the square of what noise puts there; 0: not asked
     std::uint16_t output = 0;      ///< normalised rows: the window signal that noise enters by
     S output_noise = S(0);         ///< its declared standard deviation
+    PointRows points = {};         ///< least_squares and elimination, with a margin over noise: the rows of an operating point
 
     constexpr int needed() const noexcept { return shortest > 0 ? shortest : rows.samples; }
 };
@@ -74,27 +77,30 @@ constexpr int published_slots = 4;
 /// Samples beyond one window that rings must keep: estimate() reads windows where the rows of one instant are solved or a perturbation
 /// is asked for; uncertainty() reads all windows of S(t).
 constexpr int kept_samples(Solve solve, int instants, bool uncertain, bool perturbation) noexcept {
-    return (solve == Solve::square || uncertain || perturbation ? spare_samples : 0) + (solve == Solve::robust && uncertain ? instants - 1 : 0);
+    return (solve == Solve::square || (uncertain && solve == Solve::robust) || perturbation ? spare_samples : 0) + (solve == Solve::robust && uncertain ? instants - 1 : 0);
 }
 constexpr int ring_length(int samples, int kept) noexcept { return samples + kept; }
-/// above_noise: with a margin over noise, whose Gram matrix stands behind the triangle.
-constexpr int sum_scalars(Solve solve, int unknowns, int instants, bool above_noise = false) noexcept {
-    return solve == Solve::square   ? 1
-           : solve == Solve::robust ? gram_scalars(unknowns, instants)
-                                    : triangle_scalars(unknowns) + (above_noise ? packed_size(unknowns) : 0);
+constexpr int sum_scalars(Solve solve, int unknowns, int instants) noexcept {
+    return solve == Solve::square ? 1 : solve == Solve::robust ? gram_scalars(unknowns, instants) : triangle_scalars(unknowns);
 }
-constexpr int published_scalars(Solve solve, int unknowns, bool above_noise = false) noexcept {
-    return solve == Solve::square ? 1 : published_slots * (packed_size(unknowns + 1) + (above_noise ? packed_size(unknowns) : 0));
+constexpr int published_scalars(Solve solve, int unknowns) noexcept { return solve == Solve::square ? 1 : published_slots * packed_size(unknowns + 1); }
+/// The same of operating points with a margin over noise: the sums of add_point stand behind the triangle, and behind them the moments, which are not published.
+constexpr int sum_scalars(const PointRows& points, int unknowns) noexcept {
+    return triangle_scalars(unknowns) + point_noise_scalars(unknowns, points.groups) + point_moments(points);
+}
+constexpr int published_scalars(const PointRows& points, int unknowns) noexcept {
+    return published_slots * (triangle_scalars(unknowns) + point_noise_scalars(unknowns, points.groups));
 }
 /// The same where push publishes rows: those of the newest instant (square), and of the perturbation.
 constexpr int published_row_scalars(Solve solve, int rows, int unknowns, int perturbation_rows) noexcept {
     const int solved = solve == Solve::square ? row_entries(rows, unknowns) : packed_size(unknowns + 1);
     return published_slots * (solved + row_entries(perturbation_rows, unknowns));
 }
-/// Scalars of scratch that push needs. rows: of an instant; where push publishes rows, of the perturbation if they are more.
+/// Scalars of scratch that push needs; with operating points all_change_products more. rows: of an instant; where push publishes rows, of the perturbation if
+/// they are more.
 constexpr int push_scratch(int rows, int unknowns) noexcept { return 2 * row_entries(rows, unknowns); }
 /// Scalars of scratch that estimate needs without a deviation limit; with elimination elimination_scratch more, with a margin over noise
-/// above_noise_scratch. rows: of an instant, or of the perturbation if they are more.
+/// above_noise_scratch; of operating points with a margin point_scratch in all. rows: of an instant, or of the perturbation if they are more.
 constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     int most = solve_rows_scratch(unknowns);
     if (solve_gram_scratch(unknowns) > most) most = solve_gram_scratch(unknowns);
@@ -102,8 +108,20 @@ constexpr int estimate_scratch(int rows, int unknowns) noexcept {
     if (residual_factor_scratch(rows, unknowns) > most) most = residual_factor_scratch(rows, unknowns);
     return rows * (unknowns + 1) + packed_size(unknowns + 1) + rows * rows + most;
 }
-constexpr int above_noise_scratch(int unknowns) noexcept { return packed_size(unknowns) + unknowns * unknowns; }
-/// Scalars of scratch that uncertainty needs, and estimate with a deviation limit. instants: 0 unless robust.
+constexpr int above_noise_scratch(int unknowns, int groups = 0) noexcept {
+    return (groups == 0 ? packed_size(unknowns) : point_noise_scalars(unknowns, groups)) + unknowns * unknowns;
+}
+template <class S>
+constexpr int point_scratch(const Blueprint<S>& blueprint) noexcept {
+    const int n = blueprint.rows.unknowns;
+    return estimate_scratch(blueprint.rows.rows, n) + elimination_scratch(blueprint.elimination, true) + above_noise_scratch(n, blueprint.points.groups);
+}
+/// Of operating points, where uncertainty needs it, and estimate with a deviation limit.
+template <class S>
+constexpr int point_uncertainty_scratch(const Blueprint<S>& blueprint) noexcept {
+    return point_scratch(blueprint) + propagate_points_scratch(blueprint.elimination, blueprint.rows.unknowns);
+}
+/// Scalars of scratch that uncertainty needs of a square or robust solve, and estimate with a deviation limit. instants: 0 unless robust.
 constexpr int uncertainty_scratch(int rows, int unknowns, int instants) noexcept {
     return estimate_scratch(rows, unknowns) + node_count(instants) * rows * (2 * unknowns + 1) + unknowns * unknowns + packed_size(unknowns) +
            propagate_scratch(rows, unknowns);
@@ -165,7 +183,7 @@ constexpr int slot_scalars(const Blueprint<S>& blueprint) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const int perturbation = blueprint.perturbation.rows;
     if (blueprint.rows_published) return published_row_scalars(blueprint.solve, rows.rows, rows.unknowns, perturbation) / published_slots;
-    return published_scalars(Solve::least_squares, rows.unknowns, blueprint.margin_over_noise > S(0)) / published_slots;
+    return published_scalars(blueprint.points, rows.unknowns) / published_slots;
 }
 
 /// Drops what the windows and S(t) hold; the rows that least_squares absorbed so far stay.
@@ -188,8 +206,9 @@ inline S* next_slot(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     return memory.published + p.slot * slot_scalars(blueprint);
 }
 
-/// Adds the rows of the newest instant (destroyed) to the sums of the solve, and publishes the sums; where the published copy goes on behind them.
-template <class S>
+/// Adds the rows of the newest instant (destroyed) to the sums of the solve, and publishes the sums; where the published copy goes on behind them. points: of
+/// an operating point, whose errors are summed, too.
+template <bool points, class S>
 inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     Progress& p = *memory.progress;
@@ -200,10 +219,11 @@ inline S* absorb(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noe
         p.absorbed = gram_is_full(p.gram, blueprint.solve_instants) ? 1U : 0U;
     } else {
         add_rows(memory.sums, matrix, rows.rows, rows.unknowns, blueprint.keep);
+        if constexpr (points) add_residuals(blueprint.points, matrix, rows.unknowns, memory.sums + triangle_scalars(rows.unknowns));
         p.absorbed = 1;
     }
     S* const slot = next_slot(blueprint, memory);
-    const int size = packed_size(rows.unknowns + 1) + (blueprint.margin_over_noise > S(0) ? packed_size(rows.unknowns) : 0);
+    const int size = triangle_scalars(rows.unknowns) + (points ? point_noise_scalars(rows.unknowns, blueprint.points.groups) : 0);
     for (int k = 0; k < size; ++k) slot[k] = memory.sums[k];
     return slot + size;
 }
@@ -218,23 +238,30 @@ inline void reset(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
     if (blueprint.ratio.used) restart_ratio(memory.ratio);
     if (blueprint.solve == Solve::robust) clear_gram(memory.sums, memory.progress->gram, blueprint.rows.unknowns);
     if (blueprint.solve == Solve::least_squares || blueprint.solve == Solve::elimination) {
-        const int size = sum_scalars(blueprint.solve, blueprint.rows.unknowns, 0, blueprint.margin_over_noise > S(0));
+        const int size = triangle_scalars(blueprint.rows.unknowns);
         for (int i = 0; i < size; ++i) memory.sums[i] = S(0);
     }
 }
 
-/// Takes one sample of every signal; nullptr says that the newest sample was refused: the windows and S(t) restart,
-/// the rows that least_squares and elimination absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
-/// their absorption. Never fails.
+/// The same of operating points with a margin over noise.
 template <class S>
-inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
+inline void reset_points(const Blueprint<S>& blueprint, Memory<S> memory) noexcept {
+    reset(blueprint, memory);
+    for (int i = triangle_scalars(blueprint.rows.unknowns); i < sum_scalars(blueprint.points, blueprint.rows.unknowns); ++i) memory.sums[i] = S(0);
+}
+
+namespace detail {
+
+/// push and push_point: two functions, so that who has no operating points has no code for them.
+template <bool points, class S>
+inline void push_any(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     Progress& p = *memory.progress;
     const int length = ring_length(rows.samples, blueprint.kept);
-    detail::begin_write(p);
+    begin_write(p);
     if (sample == nullptr) {
-        detail::refuse(blueprint, memory);
-        detail::end_write(p);
+        refuse(blueprint, memory);
+        end_write(p);
         return;
     }
     p.rejected = 0;
@@ -245,12 +272,32 @@ inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sampl
         S* const spare = scratch + row_entries(rows.rows, rows.unknowns);
         const WindowPosition window_at = newest(rows.samples, length, p.head);
         evaluate_rows(rows, memory.rings, window_at, scratch, spare);
-        if (blueprint.margin_over_noise > S(0) && all_finite(scratch, row_entries(rows.rows, rows.unknowns))) {
-            add_noise(rows, blueprint.noise, memory.rings, window_at, blueprint.keep, spare, memory.sums + triangle_scalars(rows.unknowns));
+        if constexpr (points) {
+            S* const sums = memory.sums + triangle_scalars(rows.unknowns);
+            if (all_finite(scratch, row_entries(rows.rows, rows.unknowns))) {
+                add_point(rows, blueprint.noise, blueprint.points, memory.rings, window_at, blueprint.keep, scratch, spare, sums,
+                          sums + point_noise_scalars(rows.unknowns, blueprint.points.groups));
+            }
         }
-        (void)detail::absorb(blueprint, memory, scratch);
+        (void)absorb<points>(blueprint, memory, scratch);
     }
-    detail::end_write(p);
+    end_write(p);
+}
+
+}  // namespace detail
+
+/// Takes one sample of every signal; nullptr says that the newest sample was refused: the windows and S(t) restart,
+/// the rows that least_squares and elimination absorbed so far stay. Cost: square: one store per signal; else one evaluation of all rows and
+/// their absorption. Never fails.
+template <class S>
+inline void push(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
+    detail::push_any<false>(blueprint, memory, sample, scratch);
+}
+
+/// The same for operating points with a margin over noise: what errors of their means make of the rows is summed, too.
+template <class S>
+inline void push_point(const Blueprint<S>& blueprint, Memory<S> memory, const S* sample, S* scratch) noexcept {
+    detail::push_any<true>(blueprint, memory, sample, scratch);
 }
 
 /// Says that a sample was accepted which fills no window yet: the first of a run where signals are one sample late.
@@ -278,7 +325,7 @@ struct EstimateScratch {
     S* sums;     ///< packed [P|Q]'[P|Q], or the triangle
     S* factor;   ///< what whitens
     S* work;     ///< of the solvers
-    S* noise;    ///< with a margin over noise: its packed Gram matrix, then what tests it; else nullptr
+    S* noise;    ///< with a margin over noise: its packed Gram matrix, or the sums of add_point, then what tests it; else nullptr
 };
 
 /// True where the rows see every unknown by more than the margin over noise; noise: its packed Gram matrix, square: n x n of scratch.
@@ -291,8 +338,8 @@ inline bool above_noise(const S* triangle, int unknowns, S margin, const S* nois
 }
 
 template <class S>
-inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch, bool margin) noexcept {
-    S* const matrix = margin ? scratch + above_noise_scratch(rows.unknowns) : scratch;
+inline EstimateScratch<S> estimate_scratch_at(const RowSet<S>& rows, S* scratch, bool margin, int groups = 0) noexcept {
+    S* const matrix = margin ? scratch + above_noise_scratch(rows.unknowns, groups) : scratch;
     S* const sums = matrix + rows.rows * (rows.unknowns + 1);
     S* const factor = sums + packed_size(rows.unknowns + 1);
     return {matrix, sums, factor, factor + rows.rows * rows.rows, margin ? scratch : nullptr};
@@ -392,6 +439,16 @@ template <class S>
     return true;
 }
 
+/// Covariance and, unless nullptr, bias of what was solved from operating points. scratch: point_uncertainty_scratch, its first part as the solve left it.
+/// The moments are read where push adds to them: what it began since the solve spoils them.
+template <class S>
+[[gnu::always_inline]] inline void propagate_all_points(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S excess, const S* solution, S* covariance, S* bias) noexcept {
+    const int n = blueprint.rows.unknowns;
+    const EstimateScratch<S> at = estimate_scratch_at(blueprint.rows, scratch, true, blueprint.points.groups);
+    const S* const moments = memory.sums + triangle_scalars(n) + point_noise_scalars(n, blueprint.points.groups);
+    propagate_points(blueprint.points, blueprint.elimination, at.sums, at.noise, moments, n, excess, solution, scratch + point_scratch(blueprint), covariance, bias);
+}
+
 /// The residuals of the perturbation's rows at `lumped`.
 template <class S>
 inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, const Progress& then, S* scratch, const S* lumped, S* out) noexcept {
@@ -409,7 +466,7 @@ inline void perturbation_of(const Blueprint<S>& blueprint, Memory<S> memory, con
 /// True when no standard deviation exceeds the limit's part of its unknown, or of the size that it is expected to have.
 template <class S>
 inline bool certain_enough(const Blueprint<S>& blueprint, const S* covariance, const S* lumped) noexcept {
-    const int unknowns = blueprint.rows.unknowns;
+    const int unknowns = point_parameters(blueprint.elimination, blueprint.rows.unknowns);
     for (int u = 0; u < unknowns; ++u) {
         const S expected = blueprint.sizes.size > 0 ? blueprint.sizes[u] : S(0);
         const S most = blueprint.deviation_limit * larger(S(std::abs(lumped[u])), expected);
@@ -418,9 +475,10 @@ inline bool certain_enough(const Blueprint<S>& blueprint, const S* covariance, c
     return true;
 }
 
-/// estimate, and what it copied of the producer's progress. plain: without ratio filter, deviation limit and perturbation.
+/// estimate, and what it copied of the producer's progress. plain: without ratio filter, deviation limit and perturbation. excess: of operating points, how
+/// many times the residuals are what the declared errors of the means explain; else 1.
 template <class S>
-[[gnu::always_inline]] inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, Progress& then, bool plain) noexcept {
+[[gnu::always_inline]] inline Latest<S> estimate_at(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, Progress& then, bool plain, S& excess) noexcept {
     const RowSet<S>& rows = blueprint.rows;
     const S none = std::numeric_limits<S>::infinity();
     const bool filters = !plain && blueprint.ratio.used;
@@ -436,8 +494,9 @@ template <class S>
     const int n = rows.unknowns;
     const int size = packed_size(n + 1);
     const bool margin = blueprint.margin_over_noise > S(0);
-    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch, margin);
-    S* const square_of_noise = margin ? at.noise + packed_size(n) : nullptr;
+    const int groups = blueprint.points.groups;
+    const EstimateScratch<S> at = estimate_scratch_at(rows, scratch, margin, groups);
+    S* const square_of_noise = margin ? at.noise + above_noise_scratch(n, groups) - n * n : nullptr;
     Solved<S> solved = {false, none};
     bool beyond_noise = true;
     if (blueprint.solve == Solve::square) {
@@ -451,20 +510,28 @@ template <class S>
     } else {
         const S* const slot = memory.published + then.slot * slot_scalars(blueprint);
         for (int k = 0; k < size; ++k) at.sums[k] = slot[k];
-        for (int k = 0; margin && k < packed_size(n); ++k) at.noise[k] = slot[size + k];
+        for (int k = 0; k < point_noise_scalars(n, groups); ++k) at.noise[k] = slot[size + k];
         if (pushes_since(*memory.progress, then) >= static_cast<std::uint32_t>(published_slots)) return {false, Status::filling, none};
         if (blueprint.noise_floor.size > 0) beyond_noise = rises_above(at.sums, blueprint.noise_floor.data, n, at.work);
         solved = blueprint.solve == Solve::robust          ? solve_gram(at.sums, n, at.work, lumped)
                  : blueprint.solve == Solve::least_squares ? solve_triangle(at.sums, n, at.work, lumped)
-                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped, NoiseMargin<S>{at.noise, blueprint.margin_over_noise});
-        if (margin && blueprint.solve == Solve::least_squares) beyond_noise = above_noise(at.sums, n, blueprint.margin_over_noise, at.noise, square_of_noise);
+                                                           : eliminate(blueprint.elimination, at.sums, n, at.work, lumped, NoiseMargin<S>{at.noise, blueprint.margin_over_noise, &excess});
+        if (groups > 0 && blueprint.solve == Solve::least_squares && solved.regular) {
+            excess = residual_excess(at.noise[group_place(n, 0) + 1], expected_residuals(at.noise, n, 0, 0, n, lumped));
+            beyond_noise = above_noise(at.sums, n, blueprint.margin_over_noise * excess, at.noise, square_of_noise);
+        }
     }
     bool good = solved.regular && solved.condition <= blueprint.condition_limit && beyond_noise;
     if (filters) {   // what solve_gram leaves in its scratch: L and D, then the scales
         if (!good) filter_nothing(blueprint.ratio, memory.ratio, n);
         good = good && filter_ratio(blueprint.ratio, memory.ratio, at.work, n + 1, at.work + n * n, n, lumped);
     }
-    if (good && limited) {
+    if (good && limited && groups > 0) {
+        S* const covariance = scratch + point_uncertainty_scratch(blueprint);
+        propagate_all_points(blueprint, memory, scratch, excess, lumped, covariance, static_cast<S*>(nullptr));
+        if (pushes_since(*memory.progress, then) > 0U) return {false, Status::filling, none};
+        good = certain_enough(blueprint, covariance, lumped);
+    } else if (good && limited) {
         S* const covariance = scratch + uncertainty_scratch(rows.rows, n, blueprint.solve == Solve::robust ? blueprint.solve_instants : 0);
         good = propagate(blueprint, memory, then, scratch, lumped, covariance, static_cast<S*>(nullptr)) &&
                certain_enough(blueprint, covariance, lumped);
@@ -484,7 +551,8 @@ template <class S>
 template <class S>
 [[gnu::always_inline]] inline Latest<S> estimate(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped) noexcept {
     Progress then;
-    const Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, false);
+    S excess = S(1);
+    const Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, false, excess);
     if (latest.current && latest.status == Status::ok) {
         for (int u = 0; u < blueprint.whiten_at.size; ++u) memory.whitened_at[u] = lumped[u];
     }
@@ -492,13 +560,20 @@ template <class S>
 }
 
 /// Solves with the newest windows as estimate does (a ratio filter aside, which stays where it is), and says how noise moves the solution: its
-/// covariance (packed upper triangle) and bias (unknowns). Needs declared noise; square and robust. Written only with status ok.
-/// scratch: uncertainty_scratch. Cost: propagate_noise, and the rows of up to 32 instants. Never fails, fixed loops.
+/// covariance (packed upper triangle) and bias (unknowns; with an elimination of the parameters). Needs declared noise; square, robust and operating
+/// points. Written only with status ok. scratch: uncertainty_scratch; of operating points point_uncertainty_scratch. Cost: propagate_noise, and the rows of
+/// up to 32 instants; of operating points propagate_points_cost. Never fails, fixed loops.
 template <class S>
 [[gnu::always_inline]] inline Latest<S> uncertainty(const Blueprint<S>& blueprint, Memory<S> memory, S* scratch, S* lumped, S* covariance, S* bias) noexcept {
     Progress then;
-    Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, true);
+    S excess = S(1);
+    Latest<S> latest = detail::estimate_at(blueprint, memory, scratch, lumped, then, true, excess);
     if (!latest.current || latest.status != Status::ok) return latest;
+    if (blueprint.points.groups > 0) {
+        detail::propagate_all_points(blueprint, memory, scratch, excess, lumped, covariance, bias);
+        if (detail::pushes_since(*memory.progress, then) > 0U) return {false, Status::filling, std::numeric_limits<S>::infinity()};
+        return latest;
+    }
     if (!detail::propagate(blueprint, memory, then, scratch, lumped, covariance, bias)) latest.status = Status::singular;
     if (detail::pushes_since(*memory.progress, then) > static_cast<std::uint32_t>(spare_samples)) return {false, Status::filling, std::numeric_limits<S>::infinity()};
     return latest;

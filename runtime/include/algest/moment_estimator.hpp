@@ -23,7 +23,7 @@ namespace detail {
 /// copy goes on behind them.
 template <class S>
 inline S* hand_on(const Blueprint<S>& blueprint, Memory<S> memory, S* matrix) noexcept {
-    if (blueprint.solve != Solve::square) return absorb(blueprint, memory, matrix);
+    if (blueprint.solve != Solve::square) return absorb<false>(blueprint, memory, matrix);
     S* const slot = next_slot(blueprint, memory);
     const int entries = row_entries(blueprint.rows.rows, blueprint.rows.unknowns);
     for (int i = 0; i < entries; ++i) slot[i] = matrix[i];

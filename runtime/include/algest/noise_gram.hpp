@@ -1,38 +1,13 @@
 // SPDX-License-Identifier: MIT-0
-// What noise alone makes of pooled rows: the Gram matrix of the changes that it puts into their regressors, and whether the rows see every
-// combination of the unknowns by more. Noise has full rank: without this test it would pass for the second speed or current that data lack.
+// Whether rows see every combination of the unknowns by more than noise does, of which the Gram matrix of its changes in the regressors is known. Noise
+// has full rank: without this test it would pass for the second speed or current that data lack.
 #pragma once
 #include <cmath>
 
 #include "algest/arithmetic.hpp"
-#include "algest/noise.hpp"
 #include "algest/packed.hpp"
-#include "algest/rows.hpp"
-#include "algest/window.hpp"
 
 namespace algest {
-
-/// Adds the mean of dP'dP to `gram` (packed upper triangle of the unknowns), dP what the noise of the newest sample changes in the rows of an
-/// instant; windows of one sample, without lags. keep: as of add_rows. change: scratch, row_entries. A change that is not finite is left out.
-/// Cost: noisy inputs x (noise_in_rows + rows unknowns (unknowns+1)/2). Never fails.
-template <class S>
-inline void add_noise(const RowSet<S>& set, const Noise<S>& noise, const S* rings, WindowPosition at, S keep, S* change, S* gram) noexcept {
-    const int n = set.unknowns;
-    if (keep != S(1)) {
-        for (int k = 0; k < packed_size(n); ++k) gram[k] *= keep * keep;
-    }
-    for (int input = 0; input < noise.inputs; ++input) {
-        noise_in_rows(set, noise, rings, at, input, 0, change);
-        if (!all_finite(change, row_entries(set.rows, n))) continue;
-        for (int r = 0; r < set.rows; ++r) {
-            const S* const row = change + r * (n + 1);
-            int entry = 0;
-            for (int u = 0; u < n; ++u) {
-                for (int v = u; v < n; ++v, ++entry) gram[entry] += row[u] * row[v];
-            }
-        }
-    }
-}
 
 /// Multiply-adds and divisions of triangle_rises_above.
 constexpr long triangle_rises_above_cost(int unknowns) noexcept {

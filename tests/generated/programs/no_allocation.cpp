@@ -12,6 +12,9 @@
 
 #include HEADER
 
+#if HELD > 1
+#include "../../../examples/sensorless_motor/equilibrium.hpp"
+#endif
 #include "uncertainty_status.hpp"
 
 using Class = algest::generated::MODEL;
@@ -90,6 +93,15 @@ Scalar rough() {
     return static_cast<Scalar>(state >> 8U) / static_cast<Scalar>(1U << 24U);
 }
 
+#if HELD > 1
+/// Operating points of the motor: of others, residuals are larger than tolerances explain, and no estimate is ok.
+void operating_point(int n, Scalar* values) {
+    const sensorless_motor::OperatingPoint p = sensorless_motor::controlled({}, n % 2 == 0 ? 2 + n * 3 % 11 : 40 - n * 5 % 11, 1.5 + 0.5 * (n % 4), 0);
+    const double at_angle_zero[inputs] = {p.v_f, p.v_g, p.i_f, p.i_g, 0, p.omega};
+    for (int i = 0; i < inputs; ++i) values[i] = static_cast<Scalar>(at_angle_zero[i]);
+}
+#endif
+
 Class::Sample sample(int k, int kind) {
     Class::Sample out;
     Scalar values[inputs];
@@ -100,6 +112,9 @@ Class::Sample sample(int k, int kind) {
         if (kind == 2) values[i] = rough() < Scalar(0.5) ? std::numeric_limits<Scalar>::max() : std::numeric_limits<Scalar>::denorm_min();
         if (kind == 3 && rough() < Scalar(0.1)) values[i] = std::numeric_limits<Scalar>::quiet_NaN();
     }
+#if HELD > 1
+    if (kind == 0) operating_point(k / HELD, values);
+#endif
     memcpy(&out, values, sizeof out);
     return out;
 }
