@@ -25,7 +25,7 @@ SERVO = {"kt": 0.4, "J": 0.007, "mgl": 0.5, "Fc": 0.03, "mu": 0.05}
 
 
 def servo():
-    """Two swings of a period that is not the other's multiple; the speed comes 4 samples late, as models/servo.toml has it."""
+    """Two swings at once; the speed comes 4 samples late, as models/servo.toml has it."""
     period, R = 5e-3, 4.02
     kt, J, mgl, Fc, mu = SERVO.values()
     swings = ((1.2, 4.1), (0.5, 11.3))   # rad, rad/s
@@ -43,12 +43,12 @@ def servo():
     return [[q(k * period), w((k - 4) * period), V(k * period)] for k in range(3 * MEASURED)]
 
 
-MOTOR = {"R": 2.9, "f_v": 2.4e-4, "C_r": 0.0752, "L": 10.2e-3, "K": 0.27}   # of 002
+MOTOR = {"R": 2.9, "f_v": 2.4e-4, "C_r": 0.0752, "L": 10.2e-3, "K": 0.27}   # Delpoux, Bodson, Floquet 2014
 POLE_PAIRS = 50
 
 
 def operating_point(omega, i_d):
-    """(omega, v_d, v_q, i_d, i_q) of the motor at a constant speed: (21) and (22) of 000 without derivatives, the torque that of its friction."""
+    """(omega, v_d, v_q, i_d, i_q) of the motor at a constant speed: models/pmsm_electrical.toml without derivatives, its torque that of friction."""
     R, f_v, C_r, L, K = MOTOR.values()
     i_q = (f_v * omega + C_r) / K
     X = POLE_PAIRS * L * omega
@@ -56,7 +56,8 @@ def operating_point(omega, i_d):
 
 
 def sensorless(points=40):
-    """Each operating point for one block, the command ahead of the machine by any angle; a source of 30 V."""
+    """Each operating point for one block, the frame of the command ahead of the machine's by an angle that changes; a source of 30 V. The angle is
+    wrapped, as a controller's is: single precision."""
     all_points = [operating_point(omega, i_d) for omega in (*range(2, 13), *range(30, 41)) for i_d in (-3, -2, -1.5, -1, 1, 1.5, 2, 3)]
     reached = [p for p in all_points if math.hypot(p[1], p[2]) <= 30]
     rows, theta = [], 0.1
