@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One estimator in single precision on an emulated controller: what it answers, and what it costs there.
+"""One estimator on an emulated controller: what it answers, and what it costs there.
 
 Instructions are instructions under emulation, not cycles: a Cortex-M takes 1 to 14 cycles for one, and waits for its memory besides.
 """
 import json
-import math
 import re
 import shutil
 import struct
@@ -21,7 +20,7 @@ CORES = {   # name: compiler options, board
 }
 FLAGS = "-std=c++17 -O2 -ffp-contract=off -fno-exceptions -fno-rtti -Wall -Wextra -Wconversion -Werror"
 STARTUP_FLAGS = "-std=c++17 -O2 -ffreestanding -fno-tree-loop-distribute-patterns -fno-exceptions -fno-rtti -Wall -Wextra -Werror"
-SIZES = {"zero": 0.0, "denormal": 1e-39, "ordinary": 1e-4, "huge": 1e15}   # what inputs are multiplied by
+FORMATS = {"float": "f", "double": "d"}   # of python's struct
 
 
 def skip_without_compiler():
@@ -39,6 +38,7 @@ def skip_without_tools():
 class Emitted:
     """An estimator that `generate` wrote."""
     header: Path
+    scalar: str = "float"
 
     @property
     def class_name(self):
@@ -58,10 +58,10 @@ class Emitted:
         return [f'-DHEADER="{self.header}"', f"-DCLASS={self.class_name}", f"-I{SOURCE}/runtime/include"]
 
 
-def generate(model, engine, folder):
-    run(ALGEST, "generate", model, "--engine", engine, "--scalar", "float", "-o", folder)
+def generate(model, engine, folder, scalar="float"):
+    run(ALGEST, "generate", model, "--engine", engine, "--scalar", scalar, "-o", folder)
     [header] = [h for h in Path(folder).glob("*/*.hpp") if h.stem == h.parent.name]
-    return Emitted(header)
+    return Emitted(header, scalar)
 
 
 def engines(model):
@@ -71,17 +71,8 @@ def engines(model):
     return sorted(cost["engine"] for cost in made["cost"])
 
 
-def exciting(inputs, count, size=SIZES["ordinary"]):
-    """Smooth signals, by default smaller than an air gap, one sample after the other."""
-    def value(k, i):
-        phase = (0.011 + 0.0073 * i) * k
-        rough = (k * 7919 + i * 104729) % 1009 / 1009
-        return size * (0.3 + math.sin(phase) + 0.3 * math.cos(2.9 * phase) + 0.05 * rough)
-    return [[value(k, i) for i in range(inputs)] for k in range(count)]
-
-
-def as_floats(rows):
-    return b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)
+def as_bits(rows, scalar):
+    return b"".join(struct.pack(f"<{len(row)}{FORMATS[scalar]}", *row) for row in rows)
 
 
 def link(emitted, core, program, script, folder, *more):
@@ -116,37 +107,45 @@ def footprint(emitted, core, folder):
 
 
 @dataclass
-class Run:
-    answers: list   # by sample: status, condition, parameters
+class Answers:
     bits: bytes
+    of: list   # by sample: status, condition, parameters
+
+
+def answers(bits, count, scalar):
+    row = struct.Struct(f"<{len(bits) // struct.calcsize(FORMATS[scalar]) // count}{FORMATS[scalar]}")
+    return Answers(bits, list(row.iter_unpack(bits)))
+
+
+@dataclass
+class Run:
+    answers: Answers
     push: list      # instructions, by sample
     estimate: list
-
-
-def unpacked(bits, count):
-    width = len(bits) // 4 // count
-    return [struct.unpack_from(f"<{width}f", bits, 4 * width * k) for k in range(count)]
 
 
 class Board:
     """The estimator on a board of its own."""
     def __init__(self, emitted, core, folder):
-        self.machine, self.folder = CORES[core][1], folder
+        self.scalar, self.machine, self.folder = emitted.scalar, CORES[core][1], folder
         self.image, _ = link(emitted, core, HERE / "board/main.cpp", HERE / "board/board.ld", folder)
 
     def run(self, rows):
-        (self.folder / "input.bin").write_bytes(as_floats(rows))
+        (self.folder / "input.bin").write_bytes(as_bits(rows, self.scalar))
         run("qemu-system-arm", "-M", self.machine, "-nographic", "-monitor", "none", "-serial", "none", "-icount", "shift=10",
             "-semihosting-config", "enable=on,target=native", "-kernel", self.image, cwd=self.folder, timeout=600)
         bits = (self.folder / "output.bin").read_bytes()
         counts = list(struct.iter_unpack("<2I", (self.folder / "counts.bin").read_bytes()))
-        return Run(unpacked(bits, len(rows)), bits, [c[0] for c in counts], [c[1] for c in counts])
+        return Run(answers(bits, len(rows), self.scalar), [c[0] for c in counts], [c[1] for c in counts])
 
 
-def host_bits(emitted, rows, folder):
-    """The answers of the same estimator, compiled for this machine."""
-    program = folder / "host"
-    run("c++", *FLAGS.split(), *emitted.definitions, HERE / "board/host.cpp", "-o", program)
-    (folder / "host.in").write_bytes(as_floats(rows))
-    run(program, folder / "host.in", folder / "host.out")
-    return (folder / "host.out").read_bytes()
+class Host:
+    """The same estimator, compiled for this machine."""
+    def __init__(self, emitted, folder):
+        self.scalar, self.folder, self.program = emitted.scalar, folder, folder / "host"
+        run("c++", *FLAGS.split(), *emitted.definitions, HERE / "board/host.cpp", "-o", self.program)
+
+    def run(self, rows):
+        (self.folder / "host.in").write_bytes(as_bits(rows, self.scalar))
+        run(self.program, self.folder / "host.in", self.folder / "host.out")
+        return answers((self.folder / "host.out").read_bytes(), len(rows), self.scalar)
