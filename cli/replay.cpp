@@ -83,15 +83,17 @@ int replay(const ReplayOptions& options) {
     const auto replay = run(options, *plan, *recording, *stretch, diagnostics);
     if (!replay) return fail(diagnostics, options.json);
     const lab::ReplaySummary summary = lab::summarise(*replay);
-    add_remarks(options.model, *plan, *recording, *stretch, *replay, summary, diagnostics);
+    Diagnostics remarks;
+    add_remarks(options.model, *plan, *recording, *stretch, *replay, summary, remarks);
     if (!write_outputs(options, *plan, *recording, *replay, summary, diagnostics)) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);
+    print_diagnostics(remarks);
     for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
 
     if (const auto lacks = what_it_lacks(options.model, options.recordings[0], *plan, *replay, summary)) note(*lacks);
     if (options.json) {
         nlohmann::ordered_json answer = replay_json(options.model, options.recordings[0], *plan, *replay, summary);
-        answer["notes"] = notes_json(diagnostics);
+        answer["notes"] = notes_json(remarks);
         print_json(answer);
     } else print(replay_text(*plan, *replay, summary));
     return exit_done;

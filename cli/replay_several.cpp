@@ -26,12 +26,14 @@ ordered_json answer(const ReplayOptions& options, const plan::Plan& plan, const 
     auto replay = recording ? lab::replay(plan, *recording, stretch, diagnostics) : std::nullopt;
     if (replay) lab::add_deviations(plan, *recording, lab::deviations_for_scatter, *replay);
     const lab::ReplaySummary summary = replay ? lab::summarise(*replay) : lab::ReplaySummary();
+    ordered_json notes;
     if (replay) {
         add_remarks(options.model, plan, *recording, stretch, *replay, summary, diagnostics);
+        notes = notes_json(diagnostics);
         if (const auto lacks = what_it_lacks(options.model, file, plan, *replay, summary)) diagnostics.note(file, *lacks);
     }
     ordered_json out = replay ? replay_json(options.model, file, plan, *replay, summary) : ordered_json{{"recording", file}, {"error", errors_json(diagnostics)}};
-    if (replay) out["notes"] = notes_json(diagnostics);
+    if (replay) out["notes"] = notes;
     out["messages"] = ordered_json::array();
     for (const Diagnostic& d : diagnostics.sorted()) out["messages"].push_back(d.text());
     return out;

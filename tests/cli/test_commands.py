@@ -232,7 +232,7 @@ class Generate(CommandLine):
 class Replay(CommandLine):
     def test_json(self):
         value = self.algest_json("replay", "rl.toml", "coil.csv")
-        self.assertEqual(list(value), ["model", "recording", "samples", "period_s", "parameters", "status", "condition"])
+        self.assertEqual(list(value), ["model", "recording", "samples", "period_s", "parameters", "status", "condition", "notes"])
         self.assertEqual((value["model"], value["recording"]), ("rl.toml", "coil.csv"))
         self.assertEqual((value["samples"], value["period_s"]), (200, 0.001))
         self.assertEqual(value["status"], {"filling": 50, "ok": 150, "singular": 0, "rejected": 0})   # 51 samples fill 0.05 s
