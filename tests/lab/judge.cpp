@@ -154,10 +154,11 @@ TEST_CASE("doubts: none where all is declared and explained") {
     CHECK(doubts_of(noise_alone(), 1.0).empty());
 }
 
-TEST_CASE("doubts: an output above its noise is told of a name alone") {
+TEST_CASE("doubts: an output above its noise is told of a name, and of unknown where it has no shape") {
     CHECK(doubts_of(noise_alone(), 1.29).empty());
     CHECK(any_says(doubts_of(noise_alone(), 1.31), "'x' is still 1.31 times its noise away"));
-    CHECK(doubts_of(noise_alone(), 1.31, Verdict::unknown).empty());
+    CHECK(doubts_of(noise_alone(), 1.29, Verdict::unknown).empty());
+    CHECK(any_says(doubts_of(noise_alone(), 1.31, Verdict::unknown), "is the noise that it declares too small?"));
 }
 
 TEST_CASE("doubts: no noise declared, and a resolution is a declaration") {

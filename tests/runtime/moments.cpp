@@ -116,7 +116,7 @@ TEST_CASE("moments of a degree that the compiler knows are those of the loops th
     constexpr int intervals = 30, signals = 2;
     for (int degree = 1; degree <= 10; ++degree) {
         const auto count = static_cast<std::size_t>(degree) + 1;
-        const std::vector<unsigned char> degrees = {static_cast<unsigned char>(degree), static_cast<unsigned char>(degree / 2)};   // what is unrolled goes to the largest
+        const std::vector<unsigned char> degrees(signals, static_cast<unsigned char>(degree));
         const MomentSet<double, double> set{degree, 1.0 / 64, {degrees.data(), signals}, {nullptr, 0}, {nullptr, 0}};
         // Loops first, then what the processor of this test runs.
         std::vector<double> accumulators[2], references[2], sizes[2], shifted[2];
