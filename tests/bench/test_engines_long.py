@@ -17,14 +17,15 @@ class Engines(unittest.TestCase):
     def test_ratios(self):
         said = run(PROGRAM, *SHORT)
         print(said)
-        ratios = {int(m): (float(peer), float(gain)) for m, peer, gain in re.findall(r"^\| (\d+) \| ([\d.]+) \| [\d.]+ \| ([\d.]+) \|$", said, re.M)}
+        ratios = {int(m): tuple(map(float, rest)) for m, *rest in re.findall(r"^\| (\d+) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", said, re.M)}
         # A ring's samples must be read once a kernel in any program: a peer that is a fifth faster would have the better loop.
         for intervals in (2000, 20000):
-            self.assertLessEqual(ratios[intervals][0], 1.2)
+            self.assertLessEqual(ratios[intervals][0], 1.2)   # double: Eigen
+            self.assertLessEqual(ratios[intervals][1], 1.2)   # float: Eigen, liquid-dsp
         # 18 000 and 180 000 products and sums against 185 (by the costs that evaluate_moment_rows and add_sample state): 97 and 970 times, of which a
         # quarter must be left, since the loops of the tables are longer.
-        self.assertGreaterEqual(ratios[2000][1], 25)
-        self.assertGreaterEqual(ratios[20000][1], 250)
+        self.assertGreaterEqual(ratios[2000][2], 25)
+        self.assertGreaterEqual(ratios[20000][2], 250)
         self.assertLessEqual(abs(int(re.search(r"changes by (-?\d+) percent", said)[1])), 10)
         self.assertRegex(said, r"Moments cost less than tables where M is above: ")
 
