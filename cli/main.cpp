@@ -137,7 +137,7 @@ CLI::App* add_design(CLI::App& app, DesignOptions& options) {
     command->add_option("RECORDING", options.recording, recording_text)->required();
     command->add_option("--accuracy", options.accuracy, "relative error that is wanted, e.g. 0.02: the shortest window that has it; default: the least error")->type_name("SHARE")->check([](const std::string& text) {
         double share = 0;
-        return CLI::detail::lexical_cast(text, share) && share > 0 && std::isfinite(share) ? std::string() : text + " is not a share above 0; write 0.05 for 5 percent";
+        return CLI::detail::lexical_cast(text, share) && share > 0 && share < 1 ? std::string() : text + " is not a share between 0 and 1; write 0.05 for 5 percent";
     });
     add_csv_style(*command, options.csv);
     command->add_flag("--json", options.json, json_text);

@@ -254,7 +254,7 @@ class Design(CommandLine):
         good = self.write("good.csv", coil(seconds=0.5))
         self.write("model.toml", COIL)
         derivative = COIL.replace('solve = "robust"\nsolve_window = 0.2', 'functional = "derivative"\nsolve = "least_squares"')
-        for text, words, wanted in ((COIL, [recording], "too few"), (COIL, [good, "--accuracy", "-1"], "--accuracy"), (COIL, [good, "--accuracy", "x"], "--accuracy"),
+        for text, words, wanted in ((COIL, [recording], "too few"), (COIL, [good, "--accuracy", "-1"], "--accuracy"), (COIL, [good, "--accuracy", "5"], "write 0.05 for 5 percent"), (COIL, [good, "--accuracy", "x"], "--accuracy"),
                                     (COIL.replace("period = 1e-3\n", ""), [good], "no windows to design"), (derivative, [good], "no windows to design"),
                                     (COIL.replace("period = 1e-3", "period = 1e-2"), [good], "is sampled every"), (COIL.replace('"A"', '"A", column = "j"'), [good], "no column"),
                                     (COIL.replace("R*i", "R*i*"), [good], "error"), (COIL, ["nowhere.csv"], "nowhere.csv")):
