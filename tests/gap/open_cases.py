@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests of the open cases of ../shared/cases share: verdicts, names, gaps. Every second case is in test_open_cases.py, all of them in
+"""What the tests of the open cases of ../shared/cases share: verdicts, names, gaps. Every third case is in test_open_cases.py, all of them in
 test_open_cases_long.py, which CI runs."""
 import json
 import subprocess
