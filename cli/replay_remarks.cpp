@@ -9,12 +9,15 @@
 #include "cli/replay_answer.hpp"
 #include "lab/discrete_system.hpp"
 #include "lab/doubt.hpp"
+#include "lab/noise.hpp"
 #include "lab/scatter.hpp"
 #include "lab/standstill.hpp"
 
 namespace algest::cli {
 
 namespace {
+
+constexpr double a_few = 0.05;   ///< of the ok estimates: noise takes as many across a limit
 
 /// That nothing moves but noise: in the whole stretch, or in the samples that the last estimate, which the summary shows, was made of.
 std::optional<std::string> what_stands_still(const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay) {
@@ -48,7 +51,6 @@ std::optional<std::string> what_makes_singular(const plan::Plan& plan, const lab
 
 /// Estimates that cannot be: how many of the ok ones lie beyond a declared min or max. Noise takes a few of them across.
 std::optional<std::string> what_lies_beyond(const model::Parameter& parameter, const lab::Replay& replay, std::size_t p, std::size_t ok) {
-    constexpr double a_few = 0.05;
     const lab::Limits limits = lab::limits_of(parameter);
     std::size_t beyond = 0;
     for (std::size_t k = 0; k < replay.samples(); ++k) beyond += replay.status[k] == Status::ok && !limits.hold(replay.parameter(k, p)) ? 1 : 0;
@@ -73,7 +75,6 @@ std::optional<std::string> what_stands_apart(const std::string& parameter, const
 
 /// Without declared noise ok does not know it: how many estimates lie more than half off the middle one.
 std::optional<std::string> what_no_noise_explains(const std::string& parameter, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t p, std::size_t ok) {
-    constexpr double a_few = 0.05;
     const double middle = *summary.median[p];
     std::size_t off = 0;
     for (std::size_t k = 0; k < replay.samples(); ++k) off += replay.status[k] == Status::ok && !(std::abs(replay.parameter(k, p) - middle) <= 0.5 * std::abs(middle)) ? 1 : 0;
@@ -98,6 +99,7 @@ void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Reco
     Diagnostics said_before;   // by plan_from_model, of the same file
     const auto model = model::read(path, false, said_before);
     if (!model) return;
+    const bool undeclared = std::none_of(model->signals.begin(), model->signals.end(), lab::declares_noise);
     const auto note = [&](const std::optional<std::string>& text) { if (text) diagnostics.note(recording.file, *text); };
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
         const std::string& name = plan.parameters[p].name;
@@ -106,7 +108,7 @@ void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Reco
         if (summary.deviation[p]) {
             note(what_is_hardly_told(name, *summary.last[p], *summary.deviation[p]));
             note(what_stands_apart(name, replay, summary, p));
-        } else if (!plan.uncertain() && plan.solve != Solve::least_squares) {
+        } else if (undeclared && plan.solve != Solve::least_squares) {
             note(what_no_noise_explains(name, replay, summary, p, ok));
         }
     }
