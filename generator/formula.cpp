@@ -272,7 +272,7 @@ std::string printed(const Formula& f, int outer) {
         case Kind::subtract: out = printed(f->arguments[0], own) + " - " + printed(f->arguments[1], own + 1); break;
         case Kind::multiply: out = printed(f->arguments[0], own) + "*" + printed(f->arguments[1], own + 1); break;
         case Kind::divide: out = printed(f->arguments[0], own) + "/" + printed(f->arguments[1], own + 1); break;
-        case Kind::power: out = printed(f->arguments[0], own + 1) + "^" + printed(f->arguments[1], own + 1); break;
+        case Kind::power: out = printed(f->arguments[0], own + 1) + "^" + printed(f->arguments[1], own); break;   // right-associative
     }
     return own < outer ? "(" + out + ")" : out;
 }
