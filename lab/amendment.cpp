@@ -45,6 +45,12 @@ public:
     Texts(std::vector<std::string>& terms, std::vector<Substitution>& substitutions, std::vector<NewState>& states, std::vector<std::size_t> sets)
         : terms_(terms), substitutions_(substitutions), states_(states), sets_(std::move(sets)) {}
 
+    bool have(const std::string& name) const {
+        const auto has = [&](const std::string& text) { return find_whole_word(text, name) != std::string::npos; };
+        return std::any_of(terms_.begin(), terms_.end(), has) || std::any_of(states_.begin(), states_.end(), [&](const NewState& s) { return has(s.ode); }) ||
+               std::any_of(substitutions_.begin(), substitutions_.end(), [&](const Substitution& s) { return has(s.by) || has(s.derivative); });
+    }
+
     void rename_everywhere(const std::string& from, const std::string& to) {
         for (std::string& t : terms_) rename(t, from, to);
         for (std::size_t k = 0; k <= largest_set(); ++k) rename_in_set(k, from, to);
@@ -119,6 +125,7 @@ Amendment amendment(const Binding& binding, const model::Model& model, double sc
     std::map<std::string, std::string> role_units = binding.role_units;
     role_units["equation"] = binding.unit;
     for (const EffectParameter& p : effect.parameters) {
+        if (!texts.have(p.name)) continue;   // of an edit that reaches no equation
         const std::string name = names.fresh(p.name);
         texts.rename_everywhere(p.name, name);
         NewName added{name, unit_of_difference(units::tidy(filled_unit(p.unit, role_units))), 0.0, binding.in_output ? std::nullopt : p.min, false};

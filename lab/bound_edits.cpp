@@ -19,6 +19,14 @@ std::vector<std::size_t> reached(Reach reach, std::size_t e, const model::Model&
         for (std::size_t k = 0; k < model.equations.size(); ++k) if (model.equations[k].sides.right != nullptr) out.push_back(k);
         return out;
     }
+    if (reach == Reach::fed) {
+        const int own = moved(model, model.equations[e]).signal;
+        std::vector<std::size_t> out;
+        for (std::size_t k = 0; own >= 0 && k < model.equations.size(); ++k) {
+            if (k != e && moved(model, model.equations[k]).signal >= 0 && !places_of_name(model.equations[k], model.signals[static_cast<std::size_t>(own)].name).empty()) out.push_back(k);
+        }
+        return out;
+    }
     const auto frame = rotating_frame(model, measured);
     if (!frame || frame->d_equation != e) return {};
     if (reach == Reach::d) return {frame->d_equation};
@@ -103,7 +111,7 @@ bool bind_edits(Binding& b, const model::Model& model, const std::vector<bool>& 
     }
     Touched touched;
     for (const EffectEdit& edit : effect.edits) {
-        bool found = false;
+        bool found = edit.in == Reach::fed;   // what runs over may be lost
         for (const std::size_t k : reached(edit.in, own, model, measured)) {
             if (!edit.add.empty()) {
                 touched.add(k, edit.add);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 
+#include "lab/foretold.hpp"
 #include "lab/judge.hpp"
 #include "lab/locate.hpp"
 #include "lab/noise.hpp"
@@ -240,7 +241,12 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
             bench.measure_by(Yardstick::free_run);
         }
     }
-    if (!names_something(out.verdict) && guesses_noise(nominal->model, nominal->bench)) out.verdict = judge(bench, *nominal, selection, Floor::a_guess);
+    if (!names_something(out.verdict) && guesses_noise(nominal->model, nominal->bench)) {
+        out.verdict = judge(bench, *nominal, selection, Floor::a_guess);
+        if (!names_something(out.verdict) && selection.best.amendments.empty() && choose_what_foretells(bench, *nominal, selection)) {
+            out.verdict = selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
+        }
+    }
 
     std::optional<Remainder> rest;
     if (names_something(out.verdict)) rest = left_beside(bench, *nominal, selection.best);
@@ -276,7 +282,7 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
         refute(out, all_doubts());
     }
     if (amended != nullptr && !nearer(out.recordings)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
-    if (out.verdict != Verdict::unknown && bench.yardstick() == Yardstick::free_run) {
+    if (out.verdict != Verdict::unknown && bench.yardstick() == Yardstick::free_run && !guesses_noise(nominal->model, nominal->bench)) {
         const std::vector<std::string> later = changed_later(out.recordings);
         out.doubts.insert(out.doubts.begin(), later.begin(), later.end());
         if (out.verdict == Verdict::none && !later.empty()) out.verdict = Verdict::unknown;

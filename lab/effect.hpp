@@ -35,7 +35,7 @@ struct EffectScan {
 };
 
 /// Which equations an edit is made in, seen from the one that the effect enters.
-enum class Reach { own, all, d, q, torque };
+enum class Reach { own, all, fed, d, q, torque };   ///< fed: others that move something and have the signal that it moves in them; there may be none
 
 /// Which places of a name an edit is made at.
 enum class Part { everywhere, leading, elsewhere };

@@ -62,7 +62,7 @@ void EditReading::read(const toml::table& root, const toml::table& rewrite) {
 void EditReading::read_edit(const toml::table& t) {
     file.known_keys(t, {"in", "add", "what", "at", "by", "derivative"});
     EffectEdit edit;
-    file.choose<Reach>(t, "in", {{"own", Reach::own}, {"all", Reach::all}, {"d", Reach::d}, {"q", Reach::q}, {"torque", Reach::torque}}, edit.in, "reach of an edit");
+    file.choose<Reach>(t, "in", {{"own", Reach::own}, {"all", Reach::all}, {"fed", Reach::fed}, {"d", Reach::d}, {"q", Reach::q}, {"torque", Reach::torque}}, edit.in, "reach of an edit");
     file.choose<Part>(t, "at", {{"everywhere", Part::everywhere}, {"leading", Part::leading}, {"elsewhere", Part::elsewhere}}, edit.part, "part of an equation");
     if (t.contains("add")) {
         for (const char* key : {"what", "at", "by", "derivative"}) if (t.contains(key)) file.error(*t.get(key), quoted(key) + " beside 'add'", "make it an [[edit]] of its own");

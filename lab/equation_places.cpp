@@ -83,6 +83,17 @@ bool is_quantity(const model::Model& model, const Formula& f) {
     return f->kind == Kind::name && (model.parameter(f->name) != nullptr || model.constant(f->name) != nullptr);
 }
 
+/// Parameters and constants that stand in a product with one other factor, of which `wanted` is true.
+template <class Wanted>
+std::vector<std::string> quantities_beside(const model::Model& model, const model::Equation& e, Wanted wanted) {
+    std::vector<std::string> out;
+    for (const auto& factors : products(e)) {
+        if (factors.size() != 2) continue;
+        for (const std::size_t k : {0U, 1U}) if (is_quantity(model, factors[k]) && wanted(factors[1 - k])) out.push_back(factors[k]->name);
+    }
+    return out;
+}
+
 }  // namespace
 
 std::vector<Stretch> places_of_name(const model::Equation& e, const std::string& name) {
@@ -135,15 +146,16 @@ std::vector<Stretch> place_of_leading(const model::Model& model, const model::Eq
 }
 
 std::vector<std::string> factors_of_signal(const model::Model& model, const model::Equation& e, const std::string& signal) {
-    std::vector<std::string> out;
-    for (const auto& factors : products(e)) {
-        if (factors.size() != 2) continue;
-        for (const std::size_t k : {0U, 1U}) {
-            const Formula& other = factors[1 - k];
-            if (is_quantity(model, factors[k]) && other->kind == Kind::name && other->name == signal) out.push_back(factors[k]->name);
-        }
-    }
-    return out;
+    return quantities_beside(model, e, [&](const Formula& f) { return f->kind == Kind::name && f->name == signal; });
+}
+
+std::vector<std::string> factors_of_sign(const model::Model& model, const model::Equation& e, const std::string& signal, bool of_its_rate) {
+    return quantities_beside(model, e, [&](const Formula& f) {
+        if (!formula::is_call(f, "sgn")) return false;
+        const Formula& speed = f->arguments[0];
+        if (of_its_rate) return formula::is_derivative(speed) && formula::derivative_order(speed) == 1 && speed->arguments[0]->name == signal;
+        return speed->kind == Kind::name && speed->name == signal;
+    });
 }
 
 std::vector<std::pair<std::string, std::string>> differences(const model::Model& model, const model::Equation& e) {

@@ -34,6 +34,9 @@ std::vector<Stretch> place_of_leading(const model::Model& model, const model::Eq
 /// Parameters and constants that stand in a product with one signal and nothing else: R of R*i.
 std::vector<std::string> factors_of_signal(const model::Model& model, const model::Equation& equation, const std::string& signal);
 
+/// Parameters and constants that multiply the sign of a speed and nothing else: Tc of Tc*sgn(w). The speed is a signal, or its rate.
+std::vector<std::string> factors_of_sign(const model::Model& model, const model::Equation& equation, const std::string& signal, bool of_its_rate);
+
 /// Differences of two signals, as pairs of names, each once.
 std::vector<std::pair<std::string, std::string>> differences(const model::Model& model, const model::Equation& equation);
 

@@ -135,7 +135,7 @@ std::string time_name(const model::Model& model) {
 const std::vector<RoleKind>& role_kinds() {
     static const std::vector<RoleKind> kinds = {{"own", {}}, {"speed", {"rad/s", "m/s"}}, {"position", {"rad", "m"}}, {"angle", {"rad"}}, {"current", {"A"}},
                                                 {"any_speed", {"rad/s", "m/s"}}, {"input", {}}, {"time", {"s"}},
-                                                {"sensor", {}}, {"unsigned_sensor", {}}, {"actuator", {}}, {"drive", {"A", "N.m", "N"}}, {"leading", {}}, {"factor", {}}, {"difference", {"rad", "m"}}, {"constant", {}},
+                                                {"sensor", {}}, {"unsigned_sensor", {}}, {"actuator", {}}, {"drive", {"A", "N.m", "N"}}, {"leading", {}}, {"factor", {}}, {"dry_friction", {"N.m", "N"}}, {"difference", {"rad", "m"}}, {"constant", {}},
                                                 {"d_current", {"A"}}, {"q_current", {"A"}}, {"rotor_speed", {"rad/s"}}, {"pole_pairs", {"1"}}};
     return kinds;
 }
@@ -153,6 +153,9 @@ std::vector<Filler> fillers(const std::string& kind, const model::Model& model, 
     const bool is_position = own.order == 2 && (fits(unit, "rad") || fits(unit, "m") || is_of_a_sensor(unit));
     if ((kind == "sensor" || kind == "unsigned_sensor") && measured[static_cast<std::size_t>(own.signal)] && signal.scored) out.push_back({signal.name, signal.unit});
     if (kind == "own") out.push_back({signal.name, signal.unit});
+    if (kind == "dry_friction" && (is_speed || is_position)) {
+        for (const std::string& name : factors_of_sign(model, model.equations[equation], signal.name, is_position)) out.push_back({name, unit_of_quantity(model, name)});
+    }
     if (kind == "current" && fits(unit, "A")) out.push_back({signal.name, signal.unit});
     if (kind == "speed") {
         if (is_speed) out.push_back({signal.name, signal.unit});

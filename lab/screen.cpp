@@ -316,18 +316,37 @@ private:
         const double whole = slopes.squaredNorm();
         slopes = outside(slopes);
         if (!(slopes.squaredNorm() > least_of_its_own * whole)) return;   // what the parameters do already
-        const Eigen::VectorXd move = slopes.colPivHouseholderQr().solve(-left_);
-        for (std::size_t k = 0; k < added.size(); ++k) {
-            double& value = at.parameters[static_cast<std::size_t>(v->model.parameter_index(added[k]->name))];
-            value += move[static_cast<Eigen::Index>(k)] * sizes[k];
-            if (added[k]->min && value < *added[k]->min) return;
-        }
+        const Eigen::VectorXd move = within_bounds(slopes, added, sizes, at.parameters, v->model);
+        if (move.isZero(0)) return;
+        for (std::size_t k = 0; k < added.size(); ++k) at.parameters[static_cast<std::size_t>(v->model.parameter_index(added[k]->name))] += move[static_cast<Eigen::Index>(k)] * sizes[k];
         const Eigen::VectorXd rest = left_ + slopes * move;
         c.share = 1 - rest.squaredNorm() / left_.squaredNorm();
         const double scatter = slopes.cols() == 1 ? squared_scatter(slopes.col(0), rest) : 0;
         if (scatter > 0) c.sureness = std::pow(slopes.col(0).dot(left_), 2) / scatter;
         if (c.strength > 0) return;
         c.start = at.parameters;
+    }
+
+    /// The move of the added parameters, in their sizes, that takes most of what is left; one that it would take below its bound stays where it is.
+    Eigen::VectorXd within_bounds(const Eigen::MatrixXd& slopes, const std::vector<const NewName*>& added, const std::vector<double>& sizes, const std::vector<double>& neutral, const model::Model& model) const {
+        std::vector<Eigen::Index> open;
+        for (Eigen::Index k = 0; k < slopes.cols(); ++k) open.push_back(k);
+        Eigen::VectorXd out = Eigen::VectorXd::Zero(slopes.cols());
+        while (!open.empty()) {
+            const Eigen::VectorXd move = slopes(Eigen::all, open).colPivHouseholderQr().solve(-left_);
+            const auto leaves = [&](Eigen::Index k) {
+                const NewName& n = *added[static_cast<std::size_t>(k)];
+                const double there = neutral[static_cast<std::size_t>(model.parameter_index(n.name))] + move[std::find(open.begin(), open.end(), k) - open.begin()] * sizes[static_cast<std::size_t>(k)];
+                return n.min && there < *n.min;
+            };
+            const auto first = std::find_if(open.begin(), open.end(), leaves);
+            if (first == open.end()) {
+                for (std::size_t k = 0; k < open.size(); ++k) out[open[k]] = move[static_cast<Eigen::Index>(k)];
+                return out;
+            }
+            open.erase(first);
+        }
+        return out;
     }
 
     /// How far the sum of a slope times the rest of the error scatters, by its sums over stretches: what lasts within one counts as it does.

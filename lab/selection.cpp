@@ -39,18 +39,6 @@ constexpr double alike = 1.05;                  ///< validation errors within th
 constexpr double surely_worse = 2.0;            ///< nor those whose difference is not this significant...
 constexpr double clearly_worse = 1.3;           ///< ... unless they are beyond this ratio
 
-/// A set of effects that was fitted, and the rows of the evidence that led there.
-struct Tried {
-    Variant variant;
-    std::vector<std::size_t> evidence;
-};
-
-std::set<std::string> identities(const Variant& v) {
-    std::set<std::string> out;
-    for (const Amendment& a : v.amendments) out.insert(identity(a));
-    return out;
-}
-
 /// Deflated information criterion of v over the nominal model: larger is better.
 double criterion(const Variant& v, const Variant& nominal) {
     double rows = 0;   // the nominal model's, the same for all: a good fit leaves white noise, whose rows all count
@@ -204,6 +192,12 @@ std::vector<Tried> no_larger(const std::vector<Tried>& all, const Variant& than)
 
 }  // namespace
 
+std::set<std::string> identities(const Variant& v) {
+    std::set<std::string> out;
+    for (const Amendment& a : v.amendments) out.insert(identity(a));
+    return out;
+}
+
 bool worth_it(const Score& a, const Score& b, double gain) {
     double ratio = 0;   // geometric mean over outputs: each counts alike, whatever its floor
     for (std::size_t o = 0; o < a.error.size(); ++o) ratio += std::log(std::max(a.error[o], 1e-300) / std::max(b.error[o], 1e-300)) / static_cast<double>(a.error.size());
@@ -298,6 +292,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
     out.cut_short = bench.cut_short();
     for (const std::size_t r : chosen) out.evidence[r].chosen = true;
     for (const std::size_t r : rivals) out.evidence[r].rival = true;
+    out.tried = std::move(all);
     return out;
 }
 

@@ -239,7 +239,7 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
     v.fit = fit(v.model, v.bench, from);
     if (!(v.fit.cost < hopeless * hopeless)) fit_from_elsewhere(v, from);
     start_at_fit(v);
-    v.score = free_run_score(v);
+    v.score = free_run_score(v, &Parts::validation);
 }
 
 /// A fit that explains next to nothing is caught in a false minimum, or the model is wrong from the start: values that were declared, and
@@ -306,14 +306,15 @@ void Workbench::refine(Variant& v) {
     start_at_fit(v);
 }
 
-Score Workbench::free_run_score(const Variant& v) const {
+Score Workbench::free_run_score(const Variant& v, Rows Parts::*part) const {
     Score out;
     for (std::size_t r = 0; r < recordings(); ++r) {
         const Bench& bench = bench_of(v, r);
-        const Parts& rows = parts(r);
-        const auto run = prediction(bench, v.fit.parameters, initial_of(v, r), rows.train);
+        const Rows scored = parts(r).*part;
+        const std::size_t begin = parts(r).train.begin;
+        const auto run = prediction(bench, v.fit.parameters, initial_of(v, r), {begin, scored.end});
         const std::size_t stride = bench.options.stride;
-        const std::size_t skip = (rows.validation.begin - rows.train.begin + stride - 1) / stride;
+        const std::size_t skip = (scored.begin - begin + stride - 1) / stride;
         const std::vector<double> noise = noise_by_signal(v.model, bench);
         for (const int s : scored_outputs(v.model, bench)) {
             const std::vector<double>& measured = bench.measured[static_cast<std::size_t>(s)];
@@ -321,7 +322,7 @@ Score Workbench::free_run_score(const Variant& v) const {
             const double size = size_of(measured);
             std::vector<double> miss;
             for (std::size_t k = skip; k < simulated.size(); ++k) {
-                const double e = measured[rows.train.begin + k * stride] - simulated[k];
+                const double e = measured[begin + k * stride] - simulated[k];
                 miss.push_back(std::isfinite(e) ? std::clamp(e, -error_of_divergence * size, error_of_divergence * size) : error_of_divergence * size);
             }
             add(out, r, miss, size, noise[static_cast<std::size_t>(s)]);

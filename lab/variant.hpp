@@ -118,6 +118,9 @@ public:
     /// A part of each recording, for the rows of a variant's equations.
     std::vector<BenchRows> stretches(const Variant& v, Rows Parts::*part) const;
 
+    /// Errors of the free run over a part of each recording that is not before the training stretch, which the run starts with.
+    Score free_run_score(const Variant& v, Rows Parts::*part) const;
+
     /// Residuals of the equations over short windows of a part of each recording, as shares of their driving sides; no entries where the part
     /// is shorter than a window.
     Score rows_score(const Variant& v, Rows Parts::*part) const;
@@ -147,8 +150,6 @@ private:
     void find_idle_kinematics(const model::Model& model);
     void drop_idle_kinematics(model::Model& model) const;
     void fit_from_elsewhere(Variant& v, FitStart from) const;
-    Score free_run_score(const Variant& v) const;
-
     struct Trial {
         const Recording* recording;
         Parts parts;

@@ -273,6 +273,41 @@ ode = "der(th) = w"
     CHECK(has(texts[0], "Lq = { initial = 0, unit = \"H\", min = 0 }"));
 }
 
+TEST_CASE("what runs over is lost, or comes into what the vessel feeds") {
+    constexpr const char* tanks = R"toml(name = "m"
+[signals]
+u = { unit = "V" }
+h1 = { unit = "m", initial = 0 }
+h2 = { unit = "m", initial = 0 }
+y = { unit = "m" }
+[parameters]
+k1 = { initial = 1, unit = "1/s" }
+k2 = { initial = 1, unit = "1/s" }
+b = { initial = 1, unit = "m/(V.s)" }
+[[equation]]
+ode = "der(h1) = b*u - k1*h1"
+[[equation]]
+ode = "der(h2) = k1*h1 - k2*h2"
+[[equation]]
+ode = "y = h1"
+)toml";
+    const auto texts = amended_by("overflow", tanks);
+    REQUIRE(texts.size() == 2);
+    CHECK(has(texts[0], "\"der(h1) = b*u - k1*h1 - kover*max(h1 - brim,0)\""));
+    CHECK(has(texts[0], "\"der(h2) = k1*h1 - k2*h2 + kcatch*max(h1 - brim,0)\""));
+    CHECK(has(texts[0], "kcatch = { initial = 0, unit = \"1/s\", min = 0 }"));
+    CHECK(has(texts[1], "\"der(h2) = k1*h1 - k2*h2 - kover*max(h2 - brim,0)\""));   // it feeds nothing
+    CHECK_FALSE(has(texts[1], "kcatch"));
+}
+
+TEST_CASE("dry friction differs between the directions only where the model has one") {
+    CHECK(amended_by("asymmetric_friction", motor).empty());
+    const std::string with = std::string(motor).replace(std::string(motor).find("K*i\""), 4, "K*i - Tc*sgn(w)\"");
+    const auto texts = amended_by("asymmetric_friction", std::string(with).insert(with.find("J = {"), "Tc = { initial = 1e-2, unit = \"N.m\" }\n"));
+    REQUIRE(texts.size() == 1);
+    CHECK(has(texts[0], "ode = \"J*der(w) = K*i - (Tc + T_skew*sgn(w))*sgn(w)\""));
+}
+
 TEST_CASE("play opens the spring and the damper of a shaft, whichever way round the difference is written") {
     const auto texts = amended_by("backlash", R"toml(name = "m"
 [signals]

@@ -149,12 +149,13 @@ R = { unit = "ohm", initial = 1 }
 L = { unit = "H", initial = 0.1 }
 J = { unit = "kg.m^2", initial = 1 }
 k = { unit = "N.m/rad", initial = 1 }
+Tc = { unit = "N.m", initial = 1 }
 [[equation]]
 ode = "L*der(id) = vd - R*id + pairs*w*L*iq"
 [[equation]]
 ode = "L*der(iq) = vq - R*iq - pairs*w*L*id - pairs*w*flux"
 [[equation]]
-ode = "J*der(w) = 1.5*pairs*flux*iq - k*(th - load)"
+ode = "J*der(w) = 1.5*pairs*flux*iq - k*(th - load) - Tc*sgn(w)"
 [[equation]]
 ode = "der(th) = w"
 )toml");
@@ -166,6 +167,8 @@ TEST_CASE("roles: quantities, differences and constants as they stand in an equa
     CHECK(of("leading", geared(), 2) == Texts{"J [kg.m^2]"});
     CHECK(of("leading", geared(), 3) == Texts{});
     CHECK(of("factor", geared(), 1) == Texts{"R [ohm]"});
+    CHECK(of("dry_friction", geared(), 2) == Texts{"Tc [N.m]"});
+    CHECK(of("dry_friction", geared(), 1) == Texts{});
     CHECK(of("difference", geared(), 2) == Texts{"(load-th) [rad]"});
     CHECK(of("difference", geared(), 0) == Texts{});
     CHECK(of("constant", geared(), 1) == Texts{"flux [Wb]"});   // nobody is wrong about a number of poles

@@ -36,6 +36,23 @@ Effect of_role(const std::string& name, const std::vector<std::string>& names, c
     return e;
 }
 
+/// A term of two roles, $ and #, that no usual library holds.
+Effect of_two(const std::string& name, const std::string& parameter, const Role& a, const Role& b, const std::string& formula,
+              std::function<double(double, double, double)> law) {
+    Effect e;
+    e.name = name;
+    e.accepted = {name};
+    e.in_library = false;
+    e.names = {parameter};
+    const std::string whole = replaced(replaced(formula, "$", a.text), "#", b.text);
+    e.formula = replaced(whole, "<" + parameter + ">", parameter);
+    e.texts = {replaced(whole, "<" + parameter + ">", "x_" + parameter)};
+    e.term = [a, b, law](std::size_t, const double* x, const double*, double, const double*, const double* q) {
+        return law(a.of(x), b.of(x), q[0]);
+    };
+    return e;
+}
+
 double size_of(const Role& role, const State& scale) {
     const double a = scale[static_cast<std::size_t>(role.state)];
     return role.minus < 0 ? a : 0.5 * (a + scale[static_cast<std::size_t>(role.minus)]);
@@ -149,6 +166,9 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
             e = of_role(name, {"c3"}, s.speed, "-<c3>*$^3", [](double x, const double* q) { return -q[0] * x * x * x; });
             e->values = {start / (v * v * v)};
             e->in_library = false;
+        } else if (name == "position_damping" && s.position.given()) {
+            e = of_two(name, "c2", s.position, s.speed, "-<c2>*$^2*#", [](double x, double v, double q) { return -q * x * x * v; });
+            e->values = {start / (std::pow(size_of(s.position, scale), 2) * v)};
         } else if (name == "bouc_wen_hysteresis" && s.position.given()) {
             e = hysteresis(s.speed, s.position, start, rounded(random.uniform(0.2, 0.6) * size_of(s.position, scale), 2));
         }
@@ -165,6 +185,11 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
             e = of_role(name, {"k3"}, s.position, "-<k3>*$^3", [](double v, const double* q) { return -q[0] * v * v * v; });
             e->values = {start / (x * x * x)};
             e->strength_sign = random.chance(0.7) ? 1 : -1;
+        } else if (name == "quadratic_stiffness") {
+            e = of_role(name, {"k2"}, s.position, "-<k2>*$^2", [](double v, const double* q) { return -q[0] * v * v; });
+            e->values = {start / (x * x)};
+            e->strength_sign = random.sign();
+            e->in_library = false;
         } else if (name == "hard_stop") {
             e = of_role(
                 name, {"kw", "xw"}, s.position, "-<kw>*max($-<xw>,0)-<kw>*min($+<xw>,0)",
@@ -197,6 +222,10 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
             e->values = {start};
         } else if (name == "inverter_dead_time" && slot == 0) {
             return three_phase_dead_time(system, scale);
+        } else if (name == "growing_resistance" && s.current.given() && !s.angle.given()) {
+            e = of_role(name, {"R2"}, s.current, "-<R2>*$*abs($)", [](double x, const double* q) { return -q[0] * x * std::abs(x); });
+            e->values = {start / std::pow(size_of(s.current, scale), 2)};
+            e->in_library = false;
         } else if (name == "back_emf" && s.speed.given() && !s.angle.given()) {
             e = of_role(name, {"Ke"}, s.speed, "-<Ke>*$", [](double x, const double* q) { return -q[0] * x; });
             e->values = {start / size_of(s.speed, scale)};
@@ -211,6 +240,10 @@ std::optional<Effect> effect(const std::string& name, const System& system, int 
         } else if (name == "laminar_leak") {
             e = of_role(name, {"kl"}, s.level, "-<kl>*$", [](double x, const double* q) { return -q[0] * x; });
             e->values = {start / level};
+        } else if (name == "quadratic_leak") {
+            e = of_role(name, {"kl"}, s.level, "-<kl>*$^2", [](double x, const double* q) { return -q[0] * x * x; });
+            e->values = {start / (level * level)};
+            e->in_library = false;
         }
     }
     if (s.kind == Kind::heat) {

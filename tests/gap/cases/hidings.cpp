@@ -9,7 +9,8 @@ namespace algest::gap {
 namespace {
 
 /// Hidden alone, never in a pair: what is over in an instant or has a memory, and what no file of the library says.
-const std::vector<std::string> always_alone = {"bouc_wen_hysteresis", "cubic_damping", "hard_stop", "radiation"};
+const std::vector<std::string> always_alone = {"bouc_wen_hysteresis", "cubic_damping",      "growing_resistance", "hard_stop",
+                                               "position_damping",    "quadratic_leak",     "quadratic_stiffness", "radiation"};
 
 /// Effects that only a model without that term can miss.
 bool needs_wish(const std::string& name) { return name == "viscous_friction" || name == "back_emf"; }
