@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "generator/dimension.hpp"
 #include "lab/placeholders.hpp"
 #include "lab/roles.hpp"
 #include "lab/rotating_frame.hpp"
@@ -21,9 +22,12 @@ std::vector<std::size_t> reached(Reach reach, std::size_t e, const model::Model&
     }
     if (reach == Reach::fed) {
         const int own = moved(model, model.equations[e]).signal;
+        const units::Unit unit = model::unit_of_equation(model, model.equations[e]);
         std::vector<std::size_t> out;
         for (std::size_t k = 0; own >= 0 && k < model.equations.size(); ++k) {
-            if (k != e && moved(model, model.equations[k]).signal >= 0 && !places_of_name(model.equations[k], model.signals[static_cast<std::size_t>(own)].name).empty()) out.push_back(k);
+            const units::Unit other = model::unit_of_equation(model, model.equations[k]);
+            const bool balances_alike = !unit.known() || !other.known() || unit.same_dimension(other);
+            if (k != e && balances_alike && moved(model, model.equations[k]).signal >= 0 && !places_of_name(model.equations[k], model.signals[static_cast<std::size_t>(own)].name).empty()) out.push_back(k);
         }
         return out;
     }

@@ -23,6 +23,9 @@ namespace {
 
 constexpr double confirming_tolerance = 1e-8;
 constexpr double rows_that_see = 2.0;   ///< residual of the nominal model over noise, from which on rows may overrule a long run
+constexpr double as_far_as_noise = 1.5;    ///< error of the test stretch over its noise, of a model that met the training stretch. Of 49 right names in draws with
+                                           ///< seeds 417733 to 155187783293904 the largest is 1.26, the next 1.06; laws from outside that were named after a usual one: 1.3 to 5.9
+constexpr double a_failure = 10.0;         ///< the same where it was not met all the way: a sensor that fails is missed by tens
 constexpr double nothing_is_left = 1.01;   ///< gap below which no law can hold 3 percent of the squared error
 
 std::vector<NamedParameter> parameters(const Variant& v) {
@@ -139,14 +142,13 @@ bool refuted(const Workbench& bench, const Variant& nominal, const Variant& amen
     return !after.error.empty() && !(after.nrmse < before.nrmse);
 }
 
-/// A sentence for every output that the test stretch misses by far, where the training stretch was met: what changed between the two.
-std::vector<std::string> changed_later(const std::vector<RecordingEvidence>& recordings) {
-    constexpr double far = 10.0;   // times the floor: a fit that meets one stretch and drifts over the next does so by a few; a sensor that fails, by tens
+/// A sentence for every output that the test stretch misses by more than `limit` floors, where the training stretch was met.
+std::vector<std::string> missed_later(const std::vector<RecordingEvidence>& recordings, double limit) {
     std::vector<std::string> out;
     for (const RecordingEvidence& r : recordings) {
         for (const OutputGap& o : r.outputs) {
-            if (!(o.floor > 0) || o.after <= far * o.floor) continue;
-            out.push_back(fmt::format("{}over the test stretch, from {:.4g} to {:.4g} s, '{}' is missed by {:.0f} times its noise, and was met before: a sensor failed or the machine changed, or what acts there does not act in the training stretch",
+            if (!(o.floor > 0) || o.after <= limit * o.floor) continue;
+            out.push_back(fmt::format("{}over the test stretch, from {:.4g} to {:.4g} s, '{}' is missed by {:.2g} times its noise, and was met before: a sensor failed or the machine changed, or the law is another one, which acts there and hardly in the training stretch",
                                       recordings.size() > 1 ? r.file + ": " : "", r.test_from_s, r.test_to_s, o.signal, o.after / o.floor));
         }
     }
@@ -175,9 +177,17 @@ std::optional<Remainder> left_beside(Workbench& bench, const Variant& nominal, c
     return remainder(bench, best);
 }
 
-/// Takes back what was named. doubts: of the nominal model alone.
-void refute(Discovery& out, std::vector<std::string> doubts) {
-    doubts.insert(doubts.begin(), fmt::format("{} explained the training stretch and made the test stretch worse: nothing is added", out.effects.back().name));
+/// One law that does what several named effects do, or what one leaves undone; known floors alone tell.
+std::optional<Remainder> law_instead(Workbench& bench, const Variant& nominal, const Variant& best) {
+    const bool enough = best.amendments.size() == 1 && best.score.gap() <= at_the_floor;
+    if (enough || bench.yardstick() != Yardstick::free_run || guesses_noise(nominal.model, nominal.bench)) return std::nullopt;
+    bench.begin_search();
+    return plainer_law(bench, nominal, best);
+}
+
+/// Takes back what was named. what: that the test stretch says of it; doubts: of the nominal model alone.
+void refute(Discovery& out, const std::string& what, std::vector<std::string> doubts) {
+    doubts.insert(doubts.begin(), fmt::format("{} explained the training stretch and {}: nothing is added", out.effects.back().name, what));
     out.doubts = std::move(doubts);
     out.effects.clear();
     out.alternatives.clear();
@@ -249,6 +259,8 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     }
 
     std::optional<Remainder> rest;
+    const std::optional<Remainder> plainer = names_something(out.verdict) ? law_instead(bench, *nominal, selection.best) : std::nullopt;
+    if (plainer) out.verdict = Verdict::unknown;
     if (names_something(out.verdict)) rest = left_beside(bench, *nominal, selection.best);
     else if (out.verdict == Verdict::none) rest = left_beside(bench, *nominal, *nominal);
     const bool beside_a_name = rest && names_something(out.verdict);
@@ -260,6 +272,8 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     const auto all_doubts = [&] {
         std::vector<std::string> all = doubts(bench, *nominal, selection, out.verdict);
         for (const std::string& doubt : untried(bench)) all.push_back(doubt);
+        if (plainer) all.push_back(fmt::format("one law, {} in '{}', explains {}: it is in no file of the library", plainer->term, plainer->equation,
+                                             selection.best.amendments.size() > 1 ? "as much as " + std::to_string(selection.best.amendments.size()) + " effects together" : "more than " + selection.best.amendments[0].effect));
         if (rest) {
             const std::string left = fmt::format("what is left in '{}' still follows {}", rest->equation, rest->term);
             all.push_back(beside_a_name ? fmt::format("{} takes most of the gap, but {}: the law that is missing is another one", selection.best.amendments.back().effect, left)
@@ -279,13 +293,19 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
         amended = nullptr;
         stands = false;
         out.verdict = Verdict::unknown;
-        refute(out, all_doubts());
+        refute(out, "made the test stretch worse", all_doubts());
     }
     if (amended != nullptr && !nearer(out.recordings)) out.doubts.push_back("the long run over the test stretch is no nearer to the measurement than before: the rows of the equations alone speak for what was added");
     if (out.verdict != Verdict::unknown && bench.yardstick() == Yardstick::free_run && !guesses_noise(nominal->model, nominal->bench)) {
-        const std::vector<std::string> later = changed_later(out.recordings);
+        const bool was_met = (amended != nullptr ? *amended : *nominal).score.gap() <= far_from_the_floor;
+        const std::vector<std::string> later = missed_later(out.recordings, was_met ? as_far_as_noise : a_failure);
+        if (!later.empty() && (was_met || amended == nullptr)) {
+            out.verdict = Verdict::unknown;
+            if (amended != nullptr) refute(out, "misses the test stretch", all_doubts());
+            amended = nullptr;
+            stands = false;
+        }
         out.doubts.insert(out.doubts.begin(), later.begin(), later.end());
-        if (out.verdict == Verdict::none && !later.empty()) out.verdict = Verdict::unknown;
     }
     out.residuals = residuals(bench, *nominal, amended);
     out.where = locate(bench, *nominal, out.residuals, out.recordings[0].before);

@@ -220,6 +220,15 @@ Eigen::MatrixXd output_slopes(const model::Model& model, const Bench& bench, con
     return slopes;
 }
 
+double log_gain(const Fit& a, const Fit& b) {
+    if (a.squares.size() != b.squares.size()) return 0;
+    double out = 0;
+    for (std::size_t o = 0; o < a.squares.size(); ++o) {
+        if (a.squares[o] > 0 && b.squares[o] > 0) out += std::min(a.independent[o], b.independent[o]) * std::log(b.squares[o] / a.squares[o]);
+    }
+    return out;
+}
+
 Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     const Variables variables = choose_variables(model, bench, start);
     std::vector<double> x = scaled_start(bench, start, variables);
@@ -267,7 +276,10 @@ Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
         double squares = 0;
         for (std::size_t k = 0; k < of.rows; ++k) squares += r[k] * r[k];
         out.cost += squares / outputs;
-        const double variance = squares / static_cast<double>(of.rows) * rows_that_count_as_one(r, of.rows);
+        const double as_one = rows_that_count_as_one(r, of.rows);
+        out.squares.push_back(squares);
+        out.independent.push_back(static_cast<double>(of.rows) / as_one);
+        const double variance = squares / static_cast<double>(of.rows) * as_one;
         const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> part(jacobian.data() + at * variables.size(), static_cast<Eigen::Index>(of.rows), static_cast<Eigen::Index>(variables.size()));
         if (variance > 0) normal += part.transpose() * part / variance;
         at += of.rows;

@@ -46,7 +46,12 @@ struct Fit {
     bool converged;
     int runs;                         ///< free runs it took
     std::vector<std::vector<double>> further_initial = {};   ///< by further run
+    std::vector<double> squares = {};       ///< squared error by scored output of each run, in shares of its size
+    std::vector<double> independent = {};   ///< rows that count as independent, the same
 };
+
+/// Twice the gain in log-likelihood of fit a over fit b on the rows that both were fitted to; 0 where they compare other outputs.
+double log_gain(const Fit& a, const Fit& b);
 
 /// The simulated signals that a fit compares: measured and scored, in the order of the system.
 std::vector<int> scored_outputs(const model::Model& model, const Bench& bench);

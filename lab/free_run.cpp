@@ -101,9 +101,9 @@ private:
     double delayed_value(std::size_t d, double fraction) const {
         const std::size_t s = static_cast<std::size_t>(system_.delays[d].signal);
         const std::vector<double>& recorded = drive_.values[s];
-        if (!recorded.empty()) return past_value(recorded, drive_.held[s], sample_, fraction, since_, ago_[d]);
+        if (!recorded.empty()) return past_value(recorded, drive_.held[s], sample_, fraction, since_, ago_[d], drive_.from_rest ? 0.0 : recorded.front());
         const std::vector<double>& held = out_.signals[s];
-        return held.empty() ? 0.0 : past_value(held, true, sample_ - options_.first, fraction, since_, ago_[d]);
+        return held.empty() ? 0.0 : past_value(held, true, sample_ - options_.first, fraction, since_, ago_[d], held.front());
     }
 
     std::size_t entry_of(int signal) const {

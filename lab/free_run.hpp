@@ -16,6 +16,7 @@ struct Drive {
     std::size_t samples;                          ///< the run ends there
     std::vector<std::vector<double>> values;      ///< by the model's signals; empty for those that are not driven
     std::vector<bool> held;                       ///< by signal: constant between samples, else linear
+    bool from_rest = false;                       ///< nothing drove before the first sample: a delayed input was 0 there, else what it is first
 };
 
 /// Every moving, every fed-back and every output signal at every kept sample from the first on, by the model's signals; empty for the others.
@@ -51,7 +52,7 @@ struct RunOptions {
 /// Integrates from `initial` (one value per state entry) with a Dormand-Prince step of controlled size inside each period, inputs as
 /// they are held. A sgn() is a relay: a step never straddles its switch, and where the motion holds its argument at zero
 /// (sticking friction) the relay takes the value that keeps it there, so no width of smoothing enters. No step straddles a sample of a
-/// delayed input either; before its first sample such a signal has its first value.
+/// delayed input either; before its first sample such a signal has its first value, or none (Drive::from_rest).
 /// Cost: samples times at least six evaluations of the residual's tape per highest derivative and one; one or two where it is linear (linear_motion.hpp).
 FreeRun free_run(const OdeSystem& system, const std::vector<double>& parameters, const std::vector<double>& initial, const Drive& drive,
                  const RunOptions& options, const std::function<void(double)>& progress = {});

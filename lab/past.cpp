@@ -19,19 +19,19 @@ SamplesAgo samples_ago(double seconds, double period) {
     return {static_cast<std::size_t>(whole), samples - whole < rounding ? 0.0 : samples - whole};
 }
 
-double past_value(const std::vector<double>& samples, bool held, std::size_t at, double part, double since, SamplesAgo ago) {
+double past_value(const std::vector<double>& samples, bool held, std::size_t at, double part, double since, SamplesAgo ago, double before) {
     const bool older = since + rounding < ago.rest;   // the newest sample that has passed is one sample further back
     const std::size_t back = ago.whole + (older ? 1 : 0);
-    if (back > at) return samples.front();
+    if (back > at) return before;
     const std::size_t k = std::min(at - back, samples.size() - 1);
     if (held || k + 1 >= samples.size()) return samples[k];
     return samples[k] + (part - ago.rest + (older ? 1 : 0)) * (samples[k + 1] - samples[k]);
 }
 
-std::vector<double> delayed_samples(const std::vector<double>& samples, SamplesAgo ago) {
-    const auto before = [&](std::size_t row, std::size_t back) { return samples[row > back ? row - back : 0]; };
+std::vector<double> delayed_samples(const std::vector<double>& samples, SamplesAgo ago, double before) {
+    const auto at = [&](std::size_t row, std::size_t back) { return row >= back ? samples[row - back] : before; };
     std::vector<double> out;
-    for (std::size_t row = 0; row < samples.size(); ++row) out.push_back((1 - ago.rest) * before(row, ago.whole) + ago.rest * before(row, ago.whole + 1));
+    for (std::size_t row = 0; row < samples.size(); ++row) out.push_back((1 - ago.rest) * at(row, ago.whole) + ago.rest * at(row, ago.whole + 1));
     return out;
 }
 

@@ -24,6 +24,10 @@ public:
     /// it; then, it has less to fit; then, its effect's rival says so in its file; then, the rows of its equation see it, those of the other one do not.
     bool before(const Contender& a, const Contender& b) const;
 
+    /// Where validation does not tell the two apart: true when the rows that both were fitted to speak for `a` beyond doubt, though it has more to fit. Only of
+    /// effects that add to the model alike: what bends it fits anything a little.
+    bool fitted_rows_tell(const Variant& a, const Variant& b) const;
+
     /// What `other` is beside the set that is named.
     enum class Standing {
         nothing,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lab/remainder.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "lab/effect.hpp"
-#include "lab/screen.hpp"
+#include "lab/selection.hpp"
 
 namespace algest::lab {
 
@@ -15,6 +16,9 @@ namespace {
 // process reaches 44.
 constexpr double left_in_run = 0.03;   ///< share of the run's squared error on the fitted rows
 constexpr double sure = 100;           ///< Candidate::sureness: a t of 10
+
+constexpr double as_near = 1.05;       ///< ratio of validation errors that is no difference, as between effects
+constexpr std::size_t fitted_laws = 3; ///< of the strongest in the rows, and of the largest in the run: chosen, each costs a fit
 
 struct Law {
     const char* kind;   ///< of the role `x` (lab/roles.hpp)
@@ -41,11 +45,19 @@ std::vector<Effect> as_effects() {
     return out;
 }
 
+/// Every law in every equation that may lack one.
+std::vector<Candidate> weighed_laws(Workbench& bench, const Variant& v, const std::vector<Effect>& effects) {
+    std::vector<Candidate> out = weighed_by_run(bench, v, effects);
+    const auto defines = [&](const Candidate& c) { return is_kinematic(v.whole, v.whole.equations[c.binding.equations[0]]); };
+    out.erase(std::remove_if(out.begin(), out.end(), defines), out.end());
+    return out;
+}
+
 }  // namespace
 
 std::optional<Remainder> remainder(Workbench& bench, const Variant& v) {
     const std::vector<Effect> effects = as_effects();
-    const std::vector<Candidate> weighed = weighed_by_run(bench, v, effects);
+    const std::vector<Candidate> weighed = weighed_laws(bench, v, effects);
     const Candidate* largest = nullptr;
     for (const Candidate& c : weighed) {
         if (c.share > left_in_run && c.sureness > sure && (largest == nullptr || c.share > largest->share)) largest = &c;
@@ -53,6 +65,21 @@ std::optional<Remainder> remainder(Workbench& bench, const Variant& v) {
     if (largest == nullptr) return std::nullopt;
     const Amendment a = amendment(largest->binding, v.model, largest->scan);
     return Remainder{place(a, v.whole), change(a)};
+}
+
+std::optional<Remainder> plainer_law(Workbench& bench, const Variant& nominal, const Variant& named) {
+    const std::vector<Effect> effects = as_effects();
+    std::vector<Candidate> by_rows = weighed_laws(bench, nominal, effects);
+    std::vector<Candidate> by_run = by_rows;
+    std::stable_sort(by_run.begin(), by_run.end(), [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
+    const double bar = named.amendments.size() > 1 ? as_near : 1 / as_near;
+    by_rows.resize(std::min(by_rows.size(), fitted_laws));
+    by_rows.insert(by_rows.end(), by_run.begin(), by_run.begin() + static_cast<std::ptrdiff_t>(std::min(by_run.size(), fitted_laws)));
+    for (const Candidate& c : by_rows) {
+        const auto v = bench.used_up() ? std::nullopt : with_candidate(bench, nominal, c);
+        if (v && v->score.nrmse < bar * named.score.nrmse) return Remainder{place(v->amendments[0], v->whole), change(v->amendments[0])};
+    }
+    return std::nullopt;
 }
 
 }  // namespace algest::lab

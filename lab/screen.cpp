@@ -19,6 +19,9 @@ namespace {
 
 constexpr std::size_t bindings_of_one = 2;        ///< of one effect among those that the weak form takes
 constexpr double least_share = 0.1;               ///< of the free run's error, for what the weak form does not take
+constexpr double nearby = 1.1;                  ///< times a scanned number: near enough for a power of it
+constexpr double flattest = 0.3;                ///< power below which a number is not told by the size of what it does,
+constexpr double steepest = 4;                  ///< nor above
 constexpr double least_of_its_own = 1e-4;         ///< of an effect's slope that no parameter of the model makes
 constexpr double least_driven = 0.3;              ///< of what inputs do without an effect, that they have to do beside it: a law of the position alone
                                                   ///< explains away a weight that is known, everything else of the equation at zero
@@ -376,10 +379,19 @@ private:
         const EffectScan& scan = c.binding.effect->scans[0];
         const int p = v.model.parameter_index(scanned_name(v.amendments.back()));
         if (there > here && scan.fitted && p >= 0 && !c.scans.empty()) {
-            c.scan = std::clamp(further * c.scan, c.scans.front(), c.scans.back());
-            at.parameters[static_cast<std::size_t>(p)] = c.scan;
+            double& value = at.parameters[static_cast<std::size_t>(p)];
+            value = nearby * c.scan;
+            const double power = power_of_scan(change.norm(), outside(change_at(v, at)).norm());
+            c.scan = std::clamp(std::pow(further, 1 / power) * c.scan, c.scans.front(), c.scans.back());
+            value = c.scan;
         }
         c.start = at.parameters;
+    }
+
+    /// The power of its scanned number that an effect grows with: 1 of a delay, -2 of a current at which an iron saturates.
+    static double power_of_scan(double change, double change_nearby) {
+        const double power = std::log(change_nearby / change) / std::log(nearby);
+        return std::abs(power) > flattest ? std::clamp(power, -steepest, steepest) : 1;   // NaN: 1
     }
 
     static std::string scanned_name(const Amendment& a) {

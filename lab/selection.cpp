@@ -9,7 +9,6 @@
 #include "lab/golden_section.hpp"
 #include "lab/noise.hpp"
 #include "lab/precedence.hpp"
-#include "lab/screen.hpp"
 #include "lab/spectrum.hpp"
 #include "lab/weak_form.hpp"
 
@@ -54,28 +53,6 @@ std::vector<double> carried_over(const Variant& v, const Variant& from) {
         out.push_back(old >= 0 ? from.fit.parameters[static_cast<std::size_t>(old)] : exact::nearest(*p.initial, plan::Scalar::float64));
     }
     return out;
-}
-
-std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, const Candidate& c) {
-    const Workbench::OneOfMany share(bench);
-    Amendment a = amendment(c.binding, base.model, c.scan);
-    const auto probe = bench.runnable(amended(base.text, base.whole, a));
-    if (!probe) return std::nullopt;
-    for (NewName& n : a.names) {   // the weak form's value is where the fit starts
-        if (n.constant) continue;
-        const int p = probe->parameter_index(n.name);
-        if (p >= 0) n.value = c.start[static_cast<std::size_t>(p)];
-        if (n.min) n.value = std::max(n.value, *n.min);
-    }
-    auto amendments = base.amendments;
-    amendments.push_back(a);
-    Diagnostics quiet;
-    auto v = bench.prepare(amended(base.text, base.whole, a), std::move(amendments), quiet);
-    if (!v) return std::nullopt;
-    bench.fit_and_score(*v, carried_over(*v, base), carried_initial(*v, base));
-    // What bends a model is further from its start than a term is.
-    if (!v->fit.converged && v->score.nrmse < still_falling * base.score.nrmse) bench.fit_and_score(*v, std::vector<double>(v->fit.parameters), std::vector<double>(v->fit.initial));
-    return v;
 }
 
 Evidence evidence_of(const Variant& v, const Variant& base, double strength, int step) {
@@ -156,7 +133,7 @@ std::vector<std::size_t> tell_rivals(Selection& out, const Precedence& precedenc
     out.as_well.clear();
     const std::set<std::string> own = identities(*named.variant);
     for (const Tried& other : others) {
-        if (identities(other.variant) == own || !indistinguishable(*named.variant, other.variant)) continue;
+        if (identities(other.variant) == own || !indistinguishable(*named.variant, other.variant) || precedence.fitted_rows_tell(*named.variant, other.variant)) continue;
         const Precedence::Standing standing = precedence.beside(named, {&other.variant, out.evidence[other.evidence.back()].strength});
         if (standing == Precedence::Standing::as_well) out.as_well.push_back(precedence.doubt(*named.variant, other.variant));
         if (standing != Precedence::Standing::rival) continue;
@@ -191,6 +168,28 @@ std::vector<Tried> no_larger(const std::vector<Tried>& all, const Variant& than)
 }
 
 }  // namespace
+
+std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, const Candidate& c) {
+    const Workbench::OneOfMany share(bench);
+    Amendment a = amendment(c.binding, base.model, c.scan);
+    const auto probe = bench.runnable(amended(base.text, base.whole, a));
+    if (!probe) return std::nullopt;
+    for (NewName& n : a.names) {   // the weak form's value is where the fit starts
+        if (n.constant) continue;
+        const int p = probe->parameter_index(n.name);
+        if (p >= 0) n.value = c.start[static_cast<std::size_t>(p)];
+        if (n.min) n.value = std::max(n.value, *n.min);
+    }
+    auto amendments = base.amendments;
+    amendments.push_back(a);
+    Diagnostics quiet;
+    auto v = bench.prepare(amended(base.text, base.whole, a), std::move(amendments), quiet);
+    if (!v) return std::nullopt;
+    bench.fit_and_score(*v, carried_over(*v, base), carried_initial(*v, base));
+    // What bends a model is further from its start than a term is.
+    if (!v->fit.converged && v->score.nrmse < still_falling * base.score.nrmse) bench.fit_and_score(*v, std::vector<double>(v->fit.parameters), std::vector<double>(v->fit.initial));
+    return v;
+}
 
 std::set<std::string> identities(const Variant& v) {
     std::set<std::string> out;
@@ -247,7 +246,12 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         const auto contender = [&](std::size_t k) { return Contender{&fitted[k].variant, out.evidence[fitted[k].evidence.back()].strength}; };
         const Variant& nearest = fitted[order[0]].variant;
         for (std::size_t k = 1; k < order.size(); ++k) {
-            if (precedence.before(contender(order[k]), contender(order[0])) && indistinguishable(nearest, fitted[order[k]].variant)) std::swap(order[0], order[k]);
+            const Variant& other = fitted[order[k]].variant;
+            if (precedence.before(contender(order[k]), contender(order[0])) && indistinguishable(nearest, other) && !precedence.fitted_rows_tell(nearest, other)) std::swap(order[0], order[k]);
+        }
+        for (std::size_t k = 1; k < order.size(); ++k) {
+            const Variant& other = fitted[order[k]].variant;
+            if (indistinguishable(fitted[order[0]].variant, other) && precedence.fitted_rows_tell(other, fitted[order[0]].variant)) std::swap(order[0], order[k]);
         }
         std::vector<Tried> ordered;
         for (const std::size_t k : order) ordered.push_back(std::move(fitted[k]));

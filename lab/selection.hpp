@@ -2,12 +2,14 @@
 // The choice of effects: forward by free-run error on the validation rows, with replacement, then pruning.
 #pragma once
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "lab/discovery.hpp"
 #include "lab/effects.hpp"
+#include "lab/screen.hpp"
 #include "lab/variant.hpp"
 
 namespace algest::lab {
@@ -29,6 +31,9 @@ struct Selection {
     std::vector<std::string> as_well = {};   ///< doubts: what explains as much as what was chosen, and is the less plain account
     std::vector<Tried> tried = {};      ///< every set that was fitted
 };
+
+/// `base` with one more effect, fitted and scored; nullopt: with it the text is no model. Cost: a fit or two, within a candidate's share.
+std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, const Candidate& c);
 
 /// What tells a set of effects from another one.
 std::set<std::string> identities(const Variant& v);

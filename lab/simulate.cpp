@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lab/csv_text.hpp"
+#include "lab/noise.hpp"
 
 namespace algest::lab {
 
@@ -46,6 +47,21 @@ double known_size(const model::Signal& signal, const std::vector<double>& measur
         if (declared) largest = std::max(largest, exact::nearest(cln::abs(*declared), plan::Scalar::float64));
     }
     return largest;
+}
+
+constexpr double of_noise = 3.0;   ///< standard deviations that a signal at zero hardly shows
+
+/// True when what is measured of the machine's states is zero at the first sample: no input has driven it yet.
+bool starts_at_rest(const model::Model& model, const Bench& bench) {
+    const std::vector<double> noise = noise_by_signal(model, bench);
+    bool seen = false;
+    for (const StateEntry& entry : bench.system.states) {
+        const std::size_t s = static_cast<std::size_t>(entry.signal);
+        if (entry.order > 0 || bench.measured[s].empty()) continue;
+        seen = true;
+        if (std::abs(bench.measured[s][0]) > of_noise * noise[s]) return false;
+    }
+    return seen;
 }
 
 }  // namespace
@@ -103,6 +119,7 @@ std::optional<Bench> bench(const model::Model& model, const Recording& recording
         out.options.farthest.push_back(bounded ? largest_excursion * out.options.scale.back() : std::numeric_limits<double>::max());
     }
     out.system = std::move(*system);
+    out.drive.from_rest = starts_at_rest(model, out);
     return out;
 }
 

@@ -49,13 +49,6 @@ std::vector<double> declared_values(const model::Model& model) {
     return out;
 }
 
-/// der(x) = v.
-bool is_kinematic(const model::Model& model, const model::Equation& e) {
-    const auto is_rate = [](const formula::Formula& f) { return formula::is_derivative(f) && formula::derivative_order(f) == 1; };
-    const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
-    return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
-}
-
 /// Of two signals that an amendment bends the difference of, how small that is beside them: so much finer the run has to be.
 double smallest_part(const std::vector<Amendment>& amendments, const model::Model& model, const Bench& bench) {
     double out = 1;
@@ -103,6 +96,12 @@ std::vector<std::vector<double>> own_starts(const Variant& v) {
 void finish(Score& score) { score.nrmse = std::sqrt(score.nrmse / static_cast<double>(std::max<std::size_t>(score.error.size(), 1))); }
 
 }  // namespace
+
+bool is_kinematic(const model::Model& model, const model::Equation& e) {
+    const auto is_rate = [](const formula::Formula& f) { return formula::is_derivative(f) && formula::derivative_order(f) == 1; };
+    const auto is_signal = [&](const formula::Formula& f) { return f->kind == formula::Kind::name && model.signal_index(f->name) >= 0; };
+    return (is_rate(e.sides.left) && is_signal(e.sides.right)) || (is_signal(e.sides.left) && is_rate(e.sides.right));
+}
 
 const Bench& bench_of(const Variant& v, std::size_t recording) { return recording == 0 ? v.bench : v.further[recording - 1]; }
 

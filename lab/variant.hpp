@@ -168,6 +168,9 @@ private:
     bool cut_ = false;   ///< some candidate came to the end of its share
 };
 
+/// der(x) = v: a definition, in which no law can be missing.
+bool is_kinematic(const model::Model& model, const model::Equation& equation);
+
 /// Equations are found again by name: amendments leave their order alone, dropped kinematics do not. The first where there is none.
 std::size_t equation_index(const model::Model& model, const std::string& name);
 

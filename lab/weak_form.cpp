@@ -40,7 +40,8 @@ std::vector<std::vector<double>> products(const model::Model& model, const Bench
         const int at = static_cast<int>(samples.size());
         inputs.delay[{d.text, false}] = {plan::Op::input, at, -1, 0};
         inputs.delay[{d.text, true}] = {plan::Op::previous, at, -1, 0};
-        samples.push_back(delayed_samples(bench.measured[static_cast<std::size_t>(d.signal)], samples_ago(exact::nearest(*d.by, plan::Scalar::float64), bench.drive.period)));
+        const std::vector<double>& prompt = bench.measured[static_cast<std::size_t>(d.signal)];
+        samples.push_back(delayed_samples(prompt, samples_ago(exact::nearest(*d.by, plan::Scalar::float64), bench.drive.period), bench.drive.from_rest ? 0.0 : prompt.front()));
     }
     TapeBuilder builder(model, plan::Scalar::float64, inputs);
     for (const equation::Term& term : form.terms) {

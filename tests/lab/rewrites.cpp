@@ -279,7 +279,10 @@ TEST_CASE("what runs over is lost, or comes into what the vessel feeds") {
 u = { unit = "V" }
 h1 = { unit = "m", initial = 0 }
 h2 = { unit = "m", initial = 0 }
+p = { unit = "1/s", initial = 0 }
 y = { unit = "m" }
+[constants]
+M = { unit = "m.s^2", value = 2 }
 [parameters]
 k1 = { initial = 1, unit = "1/s" }
 k2 = { initial = 1, unit = "1/s" }
@@ -288,6 +291,8 @@ b = { initial = 1, unit = "m/(V.s)" }
 ode = "der(h1) = b*u - k1*h1"
 [[equation]]
 ode = "der(h2) = k1*h1 - k2*h2"
+[[equation]]
+ode = "M*der(p) = h1"
 [[equation]]
 ode = "y = h1"
 )toml";

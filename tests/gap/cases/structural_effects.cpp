@@ -104,6 +104,7 @@ std::optional<Effect> on_sensor(const std::string& name, const System& system, i
     if (signal >= static_cast<int>(system.signals.size())) return std::nullopt;
     const Signal& s = system.signals[static_cast<std::size_t>(signal)];
     if (s.state < 0 || !s.scored) return std::nullopt;
+    if (system.feedback) return std::nullopt;  // a controller that the model closes sees its own sensor, not the truth as here
     Effect e;
     if (name == "sensor_gain") {
         e = named(name, {"g"}, {0.05});
@@ -125,14 +126,18 @@ std::optional<Effect> on_sensor(const std::string& name, const System& system, i
     return e;
 }
 
+/// Within the play nothing pulls, neither the spring nor the damper.
 Effect backlash(const System& system, double size) {
-    const double k = value(system, "k");
+    const double k = value(system, "k"), c = value(system, "c");
     Effect e = named("backlash", {"delta"}, {0.02 * size}, {0, 1});
     e.formula = "k*dz(th1-th2,delta)";
-    e.term = [k](std::size_t which, const double* x, const double*, double, const double*, const double* q) {
-        return (which == 0 ? k : -k) * std::clamp(x[2] - x[3], -q[0], q[0]);
+    e.term = [k, c](std::size_t which, const double* x, const double*, double, const double*, const double* q) {
+        const double twist = x[2] - x[3], damper = std::abs(twist) < q[0] ? c * (x[0] - x[1]) : 0;
+        return (which == 0 ? 1 : -1) * (k * std::clamp(twist, -q[0], q[0]) + damper);
     };
-    e.texts = {" + k*max(min(th1-th2,x_delta),-x_delta)", " - k*max(min(th1-th2,x_delta),-x_delta)"};
+    const std::string inside = "(1-min(max(abs(th1-th2)-x_delta,0)/x_delta*1000,1))";
+    const std::string missing = "k*max(min(th1-th2,x_delta),-x_delta) + c*(w1-w2)*" + inside;
+    e.texts = {" + (" + missing + ")", " - (" + missing + ")"};
     return e;
 }
 

@@ -15,7 +15,8 @@ CASES = [("dc", "coulomb_friction@1+inverter_dead_time@0"), ("dca", "cogging_tor
          ("mb", "cubic_stiffness@0"), ("mb", "coulomb_friction@0"), ("tm", "backlash@0"), ("msv", "bouc_wen_hysteresis@0"), ("msx", "hard_stop@0"),
          ("hp", "orifice_leak@2"), ("arm", "gravity_sin@0"), ("axis", "stribeck_friction@0"), ("th2", "quadratic_input@0"), ("tank", "laminar_leak@1"),
          ("vc", "actuator_lag@0"), ("rl", "magnetic_saturation@0"), ("car", "coulomb_friction@1"), ("dc", "flexible_coupling@1"),
-         ("msx", "input_delay@0"), ("dca", "sensor_bias@1")]
+         ("msx", "input_delay@0"), ("dca", "sensor_bias@1"), ("msx", "position_damping@0"), ("msv", "quadratic_stiffness@0"),
+         ("dc", "growing_resistance@0"), ("tank", "quadratic_leak@1")]
 
 
 # Where the free run of algest fails: two phase currents held at zero at once (it diverges); dry friction between two masses beside a
