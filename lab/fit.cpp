@@ -167,6 +167,7 @@ std::vector<int> scored_outputs(const model::Model& model, const Bench& bench) {
     for (const int s : simulated_signals(bench.system)) {
         if (!bench.measured[static_cast<std::size_t>(s)].empty() && model.signals[static_cast<std::size_t>(s)].scored) out.push_back(s);
     }
+    std::sort(out.begin(), out.end());   // a sensor's fault makes an output of what was a state: it stays in its place
     return out;
 }
 

@@ -53,7 +53,7 @@ struct Fit {
 /// Twice the gain in log-likelihood of fit a over fit b on the rows that both were fitted to; 0 where they compare other outputs.
 double log_gain(const Fit& a, const Fit& b);
 
-/// The simulated signals that a fit compares: measured and scored, in the order of the system.
+/// The simulated signals that a fit compares: measured and scored, in the order of the model: the same for all variants of one.
 std::vector<int> scored_outputs(const model::Model& model, const Bench& bench);
 
 /// The run over the rows from an initial state, every `stride` of the bench, by the model's signals; NaN from where it diverged on.

@@ -108,7 +108,7 @@ Variant sharply_switched(const Workbench& bench, Variant best) {
 }
 
 /// Without every effect whose absence is not noticed.
-Variant pruned(Workbench& bench, Variant best, const Variant& nominal, double gain) {
+Variant pruned(Workbench& bench, Variant best, const Variant& nominal, const std::function<bool(const Score&, const Score&)>& is_missed) {
     for (bool changed = true; changed && best.amendments.size() > 1;) {
         changed = false;
         for (std::size_t without = 0; without < best.amendments.size() && !changed; ++without) {
@@ -118,7 +118,7 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal, double ga
             auto v = bench.prepare(amended_in_turn(nominal.text, bench.path(), kept), kept, quiet);
             if (!v) continue;
             bench.fit_and_score(*v, carried_over(*v, best), carried_initial(*v, best));
-            if (worth_it(best.score, v->score, gain)) continue;
+            if (is_missed(best.score, v->score)) continue;
             best = std::move(*v);
             changed = true;
         }
@@ -210,6 +210,9 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
     std::vector<Tried> all;
     std::vector<std::size_t> chosen, rivals;   // rows of the evidence
     const bool guessed = bench.yardstick() == Yardstick::free_run && guesses_noise(nominal.model, nominal.bench);
+    // What goes down to a declared noise explains everything, though it acts in few blocks only.
+    const auto takes_all = [&](const Score& a, const Score& b) { return bench.yardstick() == Yardstick::free_run && !guessed && b.gap() > far_from_the_floor && a.gap() <= at_the_floor; };
+    const auto is_worth = [&](const Score& a, const Score& b, double gain) { return takes_all(a, b) || worth_it(a, b, gain); };
     const auto gain_of = [&](std::size_t effects_in_all) { return guessed && effects_in_all > 1 ? needed_gain_of_further : needed_gain; };
     bool ahead = false;   // the last step's effects are not worth it alone, a further one may show that they are
     std::set<std::set<std::string>> tried;
@@ -240,7 +243,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
         const double gain = gain_of(out.best.amendments.size() + 1);
         std::vector<std::pair<bool, double>> merit;   // what is worth adding comes first: the criterion counts the rows of a poor fit as few
-        for (const Tried& t : fitted) merit.emplace_back(worth_it(t.variant.score, out.best.score, gain), criterion(t.variant, nominal));
+        for (const Tried& t : fitted) merit.emplace_back(is_worth(t.variant.score, out.best.score, gain), criterion(t.variant, nominal));
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
         // A wave of time fits what hangs on an angle at constant speed, a hysteresis what dry friction does, and so does dry friction that falls.
         const auto contender = [&](std::size_t k) { return Contender{&fitted[k].variant, out.evidence[fitted[k].evidence.back()].strength}; };
@@ -266,9 +269,9 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         // A run that drifts on noise of the process is one sample, however long: some effect lies on its way.
         const double needed = named.strength > 0 && named.strength < rows_of_chance ? gain_against_rows : gain_by_chance;
         // None lies on all of it: noise of the process stays when an effect has taken its part.
-        const bool takes_all = out.best.score.gap() > far_from_the_floor && top.score.gap() <= at_the_floor && top.score.white();
-        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && !takes_all && named.strength < rows_of_no_chance && log_gain(top.score, out.best.score) < needed;
-        if (by_chance || !worth_it(top.score, out.best.score, gain) || (to_the_floor && top.score.gap() > far_from_the_floor)) {
+        const bool leaves_noise = takes_all(top.score, out.best.score) && top.score.white();
+        const bool by_chance = bench.yardstick() == Yardstick::free_run && !guessed && !leaves_noise && named.strength < rows_of_no_chance && log_gain(top.score, out.best.score) < needed;
+        if (by_chance || !is_worth(top.score, out.best.score, gain) || (to_the_floor && top.score.gap() > far_from_the_floor)) {
             if (ahead) break;
             ahead = true;
             beside = std::move(next);
@@ -285,7 +288,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         if (out.best.score.gap() <= enough || bench.used_up()) break;
     }
     const std::size_t before = out.best.amendments.size();
-    out.best = pruned(bench, out.best, nominal, gain_of(2));
+    out.best = pruned(bench, out.best, nominal, [&](const Score& with, const Score& without) { return is_worth(with, without, gain_of(2)); });
     const auto kept = [&](std::size_t r) {
         return std::any_of(out.best.amendments.begin(), out.best.amendments.end(), [&](const Amendment& a) { return a.effect == out.evidence[r].effect && place(a, out.best.whole) == out.evidence[r].equation; });
     };
