@@ -80,12 +80,15 @@ bool Precedence::before(const Contender& a, const Contender& b) const {
 }
 
 bool Precedence::fitted_rows_tell(const Variant& a, const Variant& b) const {
-    return held_back(a) == held_back(b) && a.amendments.size() == b.amendments.size() && log_gain(a.fit, b.fit) > beyond_doubt;
+    const bool no_freer = held_back(a) == held_back(b) || added_parameters(a) <= added_parameters(b);
+    return no_freer && a.amendments.size() == b.amendments.size() && log_gain(a.fit, b.fit) > beyond_doubt;
 }
 
 Precedence::Standing Precedence::beside(const Contender& named, const Contender& other) const {
     const bool plainer = held_back(*named.variant) < held_back(*other.variant) || yields(*other.variant, *named.variant);
     if (plainer) {
+        const bool nearer = added_parameters(*other.variant) <= added_parameters(*named.variant) && log_gain(other.variant->fit, named.variant->fit) > rows_are_sure;
+        if (nearer && are_rivals(*named.variant, *other.variant)) return Standing::rival;
         const bool same = std::abs(other.variant->score.nrmse - named.variant->score.nrmse) < the_same * named.variant->score.nrmse;
         return same || are_rivals(*named.variant, *other.variant) ? Standing::as_well : Standing::nothing;
     }

@@ -24,15 +24,15 @@ public:
     /// it; then, it has less to fit; then, its effect's rival says so in its file; then, the rows of its equation see it, those of the other one do not.
     bool before(const Contender& a, const Contender& b) const;
 
-    /// Where validation does not tell the two apart: true when the rows that both were fitted to speak for `a` beyond doubt, though it has more to fit. Only of
-    /// effects that add to the model alike: what bends it fits anything a little.
+    /// Where validation does not tell the two apart: true when the rows that both were fitted to speak for `a` beyond doubt, though it is the less plain account. Only of
+    /// effects that add to the model alike, or of one that bends it and has no more to fit: the others fit anything a little.
     bool fitted_rows_tell(const Variant& a, const Variant& b) const;
 
     /// What `other` is beside the set that is named.
     enum class Standing {
         nothing,
         as_well,   ///< a rival by the effects' files, or one to the last digit, but the less plain account
-        rival
+        rival      ///< else; also a less plain account that the fitted rows prefer, but not beyond doubt
     };
     Standing beside(const Contender& named, const Contender& other) const;
 

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace algest;
 using lab::Contender;
 using As = lab::Precedence::Standing;
@@ -74,6 +76,28 @@ TEST_CASE("precedence: of one effect in two places the rows decide, where one eq
     CHECK_FALSE(precedence.before({&here, 8}, {&there, 1}));      // 33 to 1 is not enough
     CHECK(precedence.beside({&here, 8}, {&there, 1}) == As::rival);
     CHECK(precedence.beside({&here, 40}, {&there, 5}) == As::rival);   // both equations lack it
+    CHECK(precedence.before({&here, 1000}, {&there, 20}));             // 20 leak through from the other equation
+    CHECK_FALSE(precedence.before({&here, 1000}, {&there, 40}));
     const lab::Variant other = with({{"friction", 1, 1}});
     CHECK(precedence.beside({&here, 14}, {&other, 1}) == As::rival);   // another effect is another question
+}
+
+TEST_CASE("precedence: where validation tells nothing the fitted rows may, by the likelihood of independent rows") {
+    const auto fitted = [](lab::Variant v, double squares) {
+        v.fit.squares = {squares};
+        v.fit.independent = {1000};
+        return v;
+    };
+    const lab::Variant plain = fitted(with({{"friction", 0, 1}}), 1.0);
+    const auto nearer = [&](const char* name, std::size_t parameters, double gain) { return fitted(with({{name, 0, parameters}}), std::exp(-gain / 1000)); };
+    CHECK(precedence.fitted_rows_tell(nearer("falling", 3, 50), plain));
+    CHECK_FALSE(precedence.fitted_rows_tell(nearer("falling", 3, 30), plain));
+    CHECK_FALSE(precedence.fitted_rows_tell(plain, nearer("falling", 3, 50)));
+    // What bends the model: only with no more to fit; and in between it is a rival, where a file calls it one.
+    const lab::Variant load = fitted(with({{"load", 0, 1}}), 1.0);
+    CHECK(precedence.fitted_rows_tell(nearer("bias", 1, 50), load));
+    CHECK_FALSE(precedence.fitted_rows_tell(nearer("bias", 2, 50), load));
+    const lab::Variant likely = nearer("bias", 1, 20), unlikely = nearer("bias", 1, -20);
+    CHECK(precedence.beside({&load, 1}, {&likely, 1}) == As::rival);
+    CHECK(precedence.beside({&load, 1}, {&unlikely, 1}) == As::as_well);
 }
