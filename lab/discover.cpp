@@ -179,8 +179,9 @@ std::optional<Remainder> left_beside(Workbench& bench, const Variant& nominal, c
 
 /// One law that does what several named effects do, or what one leaves undone; known floors alone tell.
 std::optional<Remainder> law_instead(Workbench& bench, const Variant& nominal, const Variant& best) {
-    const bool enough = best.amendments.size() == 1 && best.score.gap() <= at_the_floor;
-    if (enough || bench.yardstick() != Yardstick::free_run || guesses_noise(nominal.model, nominal.bench)) return std::nullopt;
+    const bool alone = best.amendments.size() == 1;
+    const bool enough = alone && (best.score.gap() <= at_the_floor || bench.yardstick() != Yardstick::free_run);   // by rows there is no floor to be above
+    if (enough || guesses_noise(nominal.model, nominal.bench)) return std::nullopt;
     bench.begin_search();
     return plainer_law(bench, nominal, best);
 }

@@ -529,6 +529,7 @@ std::vector<Candidate> weighed_by_run(Workbench& bench, const Variant& base, con
         }
     }
     std::stable_sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
+    if (bench.yardstick() != Yardstick::free_run) return out;
     const Slope slope(bench, base);
     for (Candidate& c : out) if (!bench.used_up()) slope.weigh(c);
     return out;

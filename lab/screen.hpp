@@ -26,7 +26,7 @@ struct Candidate {
 /// Cost: one weak form a candidate, window length and scanned value; one run a parameter of a candidate.
 std::vector<Candidate> screen(Workbench& bench, const Variant& base, const std::vector<Effect>& effects, std::size_t by_rows, std::size_t by_run);
 
-/// Every candidate, one of each law and place, weighed by the free run's slope, those first that the rows see best.
+/// Every candidate, one of each law and place, weighed by the free run's slope where that is the yardstick, those first that the rows see best.
 std::vector<Candidate> weighed_by_run(Workbench& bench, const Variant& base, const std::vector<Effect>& effects);
 
 }  // namespace algest::lab
