@@ -9,6 +9,7 @@
 #include "cli/replay_answer.hpp"
 #include "lab/discrete_system.hpp"
 #include "lab/doubt.hpp"
+#include "lab/missed_outputs.hpp"
 #include "lab/noise.hpp"
 #include "lab/scatter.hpp"
 #include "lab/standstill.hpp"
@@ -94,6 +95,15 @@ std::optional<std::string> what_scatters(const plan::Plan& plan, const lab::Repl
                        "the model misses something (algest discover), or a signal is held otherwise between samples", found);
 }
 
+/// Outputs that the model with its estimates does not follow. Where one stands apart a parameter changed, and no run with constant ones follows.
+void add_misses(const std::string& path, const model::Model& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary, Diagnostics& diagnostics) {
+    for (const lab::MissedOutput& m : lab::missed_outputs(model, plan, recording, replay, summary)) {
+        diagnostics.note(recording.file, fmt::format("a free run with the median estimates misses {} by {:.3g} {}rms from {:.6g} to {:.6g} s, {:.3g} times its declared noise and {:.0f} percent of its size: a constant or a unit is wrong, or the "
+                                                     "model misses something; to look for it: algest discover {} {} -o found",
+                                                     m.signal, m.rmse, m.unit.empty() ? "" : m.unit + " ", m.from_s, m.to_s, m.floors, 100 * m.share, path, recording.file));
+    }
+}
+
 /// What speaks against the estimates of each parameter.
 void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t ok, Diagnostics& diagnostics) {
     Diagnostics said_before;   // by plan_from_model, of the same file
@@ -101,18 +111,22 @@ void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Reco
     if (!model) return;
     const bool undeclared = std::none_of(model->signals.begin(), model->signals.end(), lab::declares_noise);
     const auto note = [&](const std::optional<std::string>& text) { if (text) diagnostics.note(recording.file, *text); };
+    bool apart = false;
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
         const std::string& name = plan.parameters[p].name;
         const int declared = model->parameter_index(name);
         if (declared >= 0) note(what_lies_beyond(model->parameters[static_cast<std::size_t>(declared)], replay, p, ok));
         if (summary.deviation[p]) {
             note(what_is_hardly_told(name, *summary.last[p], *summary.deviation[p]));
-            note(what_stands_apart(name, replay, summary, p));
+            const auto stands = what_stands_apart(name, replay, summary, p);
+            note(stands);
+            apart = apart || stands;
         } else if (undeclared && plan.solve != Solve::least_squares) {
             note(what_no_noise_explains(name, replay, summary, p, ok));
         }
     }
     note(what_scatters(plan, replay));
+    if (!apart) add_misses(path, *model, plan, recording, replay, summary, diagnostics);
 }
 
 bool every_window_is_singular(const lab::ReplaySummary& summary) {
