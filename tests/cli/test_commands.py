@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The contract of the command line: exit codes, what goes to which stream, JSON, files."""
+import json
 import os
 import pty
 import re
@@ -136,6 +137,29 @@ class Generate(CommandLine):
             [model] = self.algest_json("generate", "sized.toml", *options)["models"]
             return {cost["engine"]: cost for cost in model["cost"]}, [cost["engine"] for cost in model["cost"]]
         short, order = costs(0.05)
+    def test_the_unit_of_a_perturbation_is_one_of_its_equation(self):
+        """J*der(w) is in kg.m^2.rad/s^2, as UDUNITS has it m2.kg.s-2.rad; K*i says N.m."""
+        self.write("load.toml", """\
+name = "load"
+[sampling]
+period = 1e-3
+window = 0.1
+[signals]
+i = { unit = "A" }
+w = { unit = "rad/s" }
+[constants]
+K = { value = 0.06, unit = "N.m/A" }
+[parameters]
+J = { unit = "kg.m^2", initial = 2e-4 }
+[[equation]]
+ode = "J*der(w) = K*i"
+kappa = 2
+perturbation = "load"
+""")
+        out, _ = self.algest("derive", "load.toml", "--format", "json")
+        self.assertEqual([(p["name"], p["unit"]) for p in json.loads(out)["equations"][0]["perturbation"]], [("load1", "N.m"), ("load2", "N.m/s")])
+
+
         long, _ = costs(5)
         self.assertEqual(order, ["fir", "moments"])
         self.assertEqual(costs(5, "--engine", "moments")[1], ["moments", "fir"])
