@@ -91,6 +91,21 @@ class Check(CommandLine):
             "[[equation]]", 'c = { unit = "V" }\n\n[[equation]]') + "kappa = 1\n")
         _, err = self.algest("check", "blind.toml", exit_code=1)
         self.assertRegex(err, r"blind\.toml:\d+:\d+: not identifiable: ")
+    def test_where_the_format_is_described(self):
+        self.write("torn.toml", "[signals\n")
+        _, err = self.algest("check", "torn.toml", exit_code=2)
+        self.assertIn("torn.toml:1:", err)
+        self.assertIn("docs/model-file.md", err)
+
+    def test_which_parameters_have_to_be_known(self):
+        """Of a*b*i only the product is seen, of c*d*i^2 too: one of each pair. Any two of the four would not do."""
+        self.write("open.toml", RL_CIRCUIT.replace("u - R*i", "u - a*b*i - c*d*i^2").replace("R = { unit = \"ohm\", initial = 1 }", "a = { initial = 1 }\nb = { initial = 1 }\nc = { initial = 1 }\nd = { initial = 1 }").replace('unit = "V"', "").replace('unit = "A"', ""))
+        _, err = self.algest("check", "open.toml", exit_code=1)
+        self.assertIn("declare 2 of a, b, c, d, e.g. a and c under [constants]", err)
+        self.write("open.toml", RL_CIRCUIT.replace("u - R*i", "u - R*k*i").replace("R = {", 'k = { unit = "1", initial = 1 }\nR = {'))
+        _, err = self.algest("check", "open.toml", exit_code=1)
+        self.assertIn("declare one of k, R under [constants]", err)   # L is seen
+
         self.assertEqual(self.algest_json("check", "blind.toml", exit_code=1)["error"][0]["severity"], "not identifiable")
         self.algest("check", "blind.toml", "nothing.toml", exit_code=2)
 
