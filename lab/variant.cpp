@@ -102,6 +102,16 @@ std::vector<std::vector<double>> own_starts(const Variant& v) {
 
 void finish(Score& score) { score.nrmse = std::sqrt(score.nrmse / static_cast<double>(std::max<std::size_t>(score.error.size(), 1))); }
 
+/// False, and an error, where a stretch begins before the recording or ends behind it: the part that is there is not what was asked for. The end may be
+/// a period behind the last sample: ten seconds of it.
+bool within(const Recording& recording, const std::string& option, const std::optional<std::pair<double, double>>& stretch, Diagnostics& diagnostics) {
+    const double first = recording.t.front();
+    const double last = recording.t.back();
+    if (!stretch || (stretch->first >= first - 0.5 * recording.period && stretch->second <= last + 1.5 * recording.period)) return true;
+    diagnostics.error(recording.file, {}, fmt::format("{} {:g}:{:g} is not within the recording, which goes from {:.6g} s to {:.6g} s", option, stretch->first, stretch->second, first, last), "a stretch of what was recorded");
+    return false;
+}
+
 }  // namespace
 
 const Bench& bench_of(const Variant& v, std::size_t recording) { return recording == 0 ? v.bench : v.further[recording - 1]; }
@@ -133,6 +143,7 @@ std::optional<Parts> parts_of(const Recording& recording, const std::optional<st
                           fmt::format("train on less, e.g. --train {:g}:{:.3g}; at least {} samples behind it are needed", train->first, recording.t[out.train.begin + (samples - out.train.begin) * 7 / 10], least_test));
         return std::nullopt;
     }
+    if (!within(recording, "--train", train, diagnostics) || !within(recording, "--test", test, diagnostics)) return std::nullopt;
     if (out.train.end < out.train.begin + least_train || out.test.end < out.test.begin + least_test) {
         const auto size = [](const Rows& r) { return std::to_string(r.end > r.begin ? r.end - r.begin : 0); };
         diagnostics.error(recording.file, {}, "too short: " + size(out.train) + " samples to train on, " + size(out.test) + " to test on",
