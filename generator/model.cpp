@@ -92,7 +92,7 @@ std::optional<Model> read(const std::string& path, bool strict, Diagnostics& dia
 std::optional<Model> read_from_text(const std::string& text, const std::string& path, bool strict, Diagnostics& diagnostics) {
     Model model;
     model.path = path;
-    read_toml(path, text, "see the model file format in docs", diagnostics, [&](const toml::table& root, TomlAccess& file) {
+    read_toml(path, text, "docs/model-file.md has the format", diagnostics, [&](const toml::table& root, TomlAccess& file) {
         Reading reading{file, model, strict};
         read_sections(root, reading);
     });

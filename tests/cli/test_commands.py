@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from command_line import L, R, RL_CIRCUIT, CommandLine, coil_rows, csv
+from command_line import HEADER, L, R, RL_CIRCUIT, CommandLine, coil_rows, csv
 from environment import ALGEST, SOURCE
 
 
@@ -41,6 +41,12 @@ class Parsing(CommandLine):
             self.assertRegex(err, r"^algest: error: .*--help")
             self.assertEqual(list(self.algest_json(*words, exit_code=2)), ["error"])
         self.assertEqual(self.files(), ["coil.csv", "rl.toml"])
+
+    def test_model_and_recording_in_each_others_place(self):
+        for words in (["replay", "coil.csv", "rl.toml"], ["replay", "coil.csv", "coil.csv", "rl.toml"], ["design", "coil.csv", "rl.toml"], ["simulate", "coil.csv", "rl.toml"], ["discover", "coil.csv", "rl.toml", "-o", "found"]):
+            _, err = self.algest(*words, exit_code=2)
+            self.assertIn(f"'coil.csv' stands where the model belongs and a .toml among the recordings: they look swapped; algest {words[0]} MODEL RECORDING", err)
+            self.assertEqual(list(self.algest_json(*words, exit_code=2)), ["error"])
 
     def test_output_that_cannot_be_written_is_an_error(self):
         with open("/dev/full", "wb") as full:
@@ -85,12 +91,6 @@ class Check(CommandLine):
         self.assertIn("warning", err)
         self.assertIn("error", self.algest("check", "no_unit.toml", "--strict", exit_code=2)[1])
 
-    def test_a_parameter_that_no_row_sees_is_answered_with_no(self):
-        # kappa = 1 annihilates the constant that c adds
-        self.write("blind.toml", RL_CIRCUIT.replace("u - R*i", "u - R*i - c").replace(
-            "[[equation]]", 'c = { unit = "V" }\n\n[[equation]]') + "kappa = 1\n")
-        _, err = self.algest("check", "blind.toml", exit_code=1)
-        self.assertRegex(err, r"blind\.toml:\d+:\d+: not identifiable: ")
     def test_where_the_format_is_described(self):
         self.write("torn.toml", "[signals\n")
         _, err = self.algest("check", "torn.toml", exit_code=2)
@@ -106,6 +106,12 @@ class Check(CommandLine):
         _, err = self.algest("check", "open.toml", exit_code=1)
         self.assertIn("declare one of k, R under [constants]", err)   # L is seen
 
+    def test_a_parameter_that_no_row_sees_is_answered_with_no(self):
+        # kappa = 1 annihilates the constant that c adds
+        self.write("blind.toml", RL_CIRCUIT.replace("u - R*i", "u - R*i - c").replace(
+            "[[equation]]", 'c = { unit = "V" }\n\n[[equation]]') + "kappa = 1\n")
+        _, err = self.algest("check", "blind.toml", exit_code=1)
+        self.assertRegex(err, r"blind\.toml:\d+:\d+: not identifiable: ")
         self.assertEqual(self.algest_json("check", "blind.toml", exit_code=1)["error"][0]["severity"], "not identifiable")
         self.algest("check", "blind.toml", "nothing.toml", exit_code=2)
 
@@ -131,27 +137,6 @@ class Derive(CommandLine):
         self.assertTrue(all(len(t["weights"]) == 51 for t in terms))     # 0.05 s at 1 ms
 
 
-class Generate(CommandLine):
-    FILES = ["rl/rl.hpp", "rl/rl.md", "rl/rl_tables.hpp"]
-
-    def test_writes_into_generated_unless_told_otherwise(self):
-        out, err = self.algest("generate", "rl.toml")
-        self.assertEqual(out, "")
-        self.assertEqual(self.files(), ["coil.csv"] + [f"generated/{f}" for f in self.FILES] + ["rl.toml"])
-        for file in self.FILES:
-            self.assertIn(f"wrote generated/{file}\n", err)
-        value = self.algest_json("generate", "rl.toml", "-o", "a/b")
-        self.assertEqual(sorted(value["models"][0]["written"]), [f"a/b/{f}" for f in self.FILES])
-        self.assertEqual((value["models"][0]["model"], value["models"][0]["name"]), ("rl.toml", "rl"))
-        for file in self.FILES:
-            self.assertEqual((self.folder / "generated" / file).read_bytes(), (self.folder / "a/b" / file).read_bytes())
-
-    def test_says_what_each_engine_costs(self):
-        def costs(window, *options):
-            self.write("sized.toml", RL_CIRCUIT.replace("window = 0.05", f"window = {window}"))
-            [model] = self.algest_json("generate", "sized.toml", *options)["models"]
-            return {cost["engine"]: cost for cost in model["cost"]}, [cost["engine"] for cost in model["cost"]]
-        short, order = costs(0.05)
     def test_the_unit_of_a_perturbation_is_one_of_its_equation(self):
         """J*der(w) is in kg.m^2.rad/s^2, as UDUNITS has it m2.kg.s-2.rad; K*i says N.m."""
         self.write("load.toml", """\
@@ -175,6 +160,27 @@ perturbation = "load"
         self.assertEqual([(p["name"], p["unit"]) for p in json.loads(out)["equations"][0]["perturbation"]], [("load1", "N.m"), ("load2", "N.m/s")])
 
 
+class Generate(CommandLine):
+    FILES = ["rl/rl.hpp", "rl/rl.md", "rl/rl_tables.hpp"]
+
+    def test_writes_into_generated_unless_told_otherwise(self):
+        out, err = self.algest("generate", "rl.toml")
+        self.assertEqual(out, "")
+        self.assertEqual(self.files(), ["coil.csv"] + [f"generated/{f}" for f in self.FILES] + ["rl.toml"])
+        for file in self.FILES:
+            self.assertIn(f"wrote generated/{file}\n", err)
+        value = self.algest_json("generate", "rl.toml", "-o", "a/b")
+        self.assertEqual(sorted(value["models"][0]["written"]), [f"a/b/{f}" for f in self.FILES])
+        self.assertEqual((value["models"][0]["model"], value["models"][0]["name"]), ("rl.toml", "rl"))
+        for file in self.FILES:
+            self.assertEqual((self.folder / "generated" / file).read_bytes(), (self.folder / "a/b" / file).read_bytes())
+
+    def test_says_what_each_engine_costs(self):
+        def costs(window, *options):
+            self.write("sized.toml", RL_CIRCUIT.replace("window = 0.05", f"window = {window}"))
+            [model] = self.algest_json("generate", "sized.toml", *options)["models"]
+            return {cost["engine"]: cost for cost in model["cost"]}, [cost["engine"] for cost in model["cost"]]
+        short, order = costs(0.05)
         long, _ = costs(5)
         self.assertEqual(order, ["fir", "moments"])
         self.assertEqual(costs(5, "--engine", "moments")[1], ["moments", "fir"])
@@ -340,6 +346,15 @@ class Replay(CommandLine):
         found = self.algest_json("replay", "rl.toml", "other.csv")
         for a, b in zip(expected["parameters"], found["parameters"]):
             self.assertAlmostEqual(b["median"] / a["median"], 1, delta=1e-9)
+
+    def test_degrees_are_no_turns(self):
+        """An angular speed in degrees is converted and not warned of; one in Hz is, since UDUNITS takes a turn for a radian."""
+        model = RL_CIRCUIT.replace("[parameters]", 'w = { unit = "rad/s" }\n[parameters]').replace("u - R*i", "u - R*i - k*w").replace("[[equation]]", 'k = { unit = "V.s/rad", initial = 1 }\n[[equation]]')
+        self.write("turning.toml", model)
+        for unit, warned in (("\u00b0/s", False), ("degree/s", False), ("Hz", True)):
+            self.write("turning.csv", csv([(*row, row[1] + row[0]) for row in coil_rows(200)], HEADER + f",w [{unit}]"))
+            _, err = self.algest("replay", "turning.toml", "turning.csv")
+            self.assertEqual("read as an angular speed" in err, warned, unit)
 
     def test_an_output_that_would_destroy_an_input_is_refused(self):
         for name in ("coil.csv", "rl.toml"):
