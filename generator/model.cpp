@@ -57,6 +57,13 @@ Position Equation::place(int offset) const {
     return places[std::min(static_cast<std::size_t>(std::max(offset, 0)), places.size() - 1)];
 }
 
+std::optional<Rational> Signal::deviation() const {
+    const Rational sigma = noise.value_or(Rational(0));
+    const Rational step = resolution.value_or(Rational(0));
+    if (cln::zerop(step)) return cln::zerop(sigma) ? std::nullopt : noise;
+    return exact::function_value("sqrt", sigma * sigma + step * step / 12);
+}
+
 const Signal* Model::signal(const std::string& wanted) const {
     for (const Signal& s : signals) if (s.name == wanted) return &s;
     return nullptr;

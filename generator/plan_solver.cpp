@@ -43,6 +43,10 @@ void plan_solver(const model::Model& model, plan::Plan& plan) {
         };
         plan.ratio = {exact::text(*e.omega_n), exact::text(e.zeta), rounded(filter.transition), rounded(filter.before), rounded(filter.now)};
     }
+    if (plan.solve == algest::Solve::robust && plan.scalar == plan::Scalar::float32 && !e.condition_limit) {
+        plan.notes.push_back("in single precision solve = \"robust\" calls every estimate with a condition above 92 singular, since its sums square it, and a machine that is excited well has 10 to 1e4: count them with "
+                             "algest replay MODEL RECORDING --scalar float, and take solve = \"square\" (8400), a condition_limit of your own, or double where they are many");
+    }
     plan.condition_limit = e.condition_limit ? exact::nearest(*e.condition_limit, plan.scalar) : default_condition_limit(model, plan);
 }
 

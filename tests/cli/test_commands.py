@@ -214,6 +214,27 @@ class Generate(CommandLine):
         self.assertIn("growing windows are for the annihilator", err)
 
     def test_check_writes_nothing_and_shows_the_difference(self):
+    def test_where_no_noise_is_declared(self):
+        """A step declares noise of step/sqrt(12): the same estimator as with that noise, to rounding."""
+        _, err = self.algest("generate", "rl.toml", "-o", "out")
+        self.assertIn("rl.toml: note: no signal declares its noise", err)
+        deviations = []
+        for declared in ("noise = 1e-3", "resolution = 3.4641016151377546e-3"):
+            self.write("noisy.toml", RL_CIRCUIT.replace('i = { unit = "A" }', f'i = {{ unit = "A", {declared} }}'))
+            _, err = self.algest("generate", "noisy.toml", "-o", "out")
+            self.assertNotIn("no signal declares its noise", err)
+            deviations.append([p["sd"] for p in self.algest_json("replay", "noisy.toml", "coil.csv")["parameters"]])
+        for a, b in zip(*deviations):
+            self.assertAlmostEqual(a / b, 1, delta=1e-12)   # 12 digits of the root of 12
+
+    def test_robust_in_single_precision_says_what_it_refuses(self):
+        robust = RL_CIRCUIT + '[estimator]\nsolve = "robust"\n'
+        self.write("robust.toml", robust)
+        self.assertIn("a condition above 92 singular", self.algest("generate", "robust.toml", "-o", "out", "--scalar", "float")[1])
+        self.assertNotIn("above 92", self.algest("generate", "robust.toml", "-o", "out")[1])
+        self.write("robust.toml", robust + "condition_limit = 300\n")
+        self.assertNotIn("above 92", self.algest("generate", "robust.toml", "-o", "out", "--scalar", "float")[1])
+
         out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
         self.assertIn("rl.hpp", out)
         self.assertEqual(self.files(), ["coil.csv", "rl.toml"])
