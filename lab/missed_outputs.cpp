@@ -9,6 +9,7 @@
 #include "lab/estimates_run.hpp"
 #include "lab/median.hpp"
 #include "lab/noise.hpp"
+#include "lab/white_noise.hpp"
 
 namespace algest::lab {
 
@@ -58,18 +59,13 @@ bool starts_unknown(const model::Model& model, const Bench& bench) {
            std::any_of(model.equations.begin(), model.equations.end(), [](const model::Equation& e) { return e.kappa > 0; });
 }
 
-/// The inputs with their declared noise once more. The generator's numbers are the same everywhere; their sum of twelve is normal enough.
+/// The inputs with their declared noise once more.
 Drive noisier(const model::Model& model, const Bench& bench) {
     Drive out = bench.drive;
     std::mt19937 random(1);   // NOLINT(cert-msc32-c,cert-msc51-cpp): the same answer on each run
     for (std::size_t s = 0; s < out.values.size(); ++s) {
         if (out.values[s].empty() || !declares_noise(model.signals[s])) continue;
-        const double deviation = noise_by_signal(model, bench)[s];
-        for (double& value : out.values[s]) {
-            double sum = -6;
-            for (int k = 0; k < 12; ++k) sum += static_cast<double>(random()) / 4294967296.0;
-            value += deviation * sum;
-        }
+        add_white_noise(out.values[s], noise_by_signal(model, bench)[s], random);
     }
     return out;
 }
