@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The contract of the command line: exit codes, what goes to which stream, JSON, files."""
 import json
+import math
 import os
 import pty
 import re
@@ -376,6 +377,24 @@ class Replay(CommandLine):
             self.write("turning.csv", csv([(*row, row[1] + row[0]) for row in coil_rows(200)], HEADER + f",w [{unit}]"))
             _, err = self.algest("replay", "turning.toml", "turning.csv")
             self.assertEqual("read as an angular speed" in err, warned, unit)
+
+    def test_a_current_that_bends_between_samples(self):
+        """docs/controller.md: L/R = 1.4 periods. Over a period L (i1 - i0) = T (u - R (i0 + i1)/2) holds for lines with L' = R T/2 coth(T R/(2 L)) in L's place."""
+        period, resistance = 1e-3, 2.0
+        inductance = 1.4 * period * resistance
+        x = period * resistance / (2 * inductance)
+        decay, i, rows = math.exp(-2 * x), 0.0, []
+        for k in range(400):
+            u = 3 * math.sin(0.31 * k) + 2 * math.sin(0.047 * k)
+            rows.append((k / 1000, u, i))
+            i = decay * i + (1 - decay) * u / resistance
+        self.write("fast.csv", csv(rows))
+        self.write("fast.toml", RL_CIRCUIT.replace('u = { unit = "V" }', 'u = { unit = "V", hold = "zoh" }'))
+        found = {p["name"]: p["median"] for p in self.algest_json("replay", "fast.toml", "fast.csv")["parameters"]}
+        # Fifty periods a window: the kernel bends by (1/50)^2 within one, times the few percent at stake.
+        self.assertAlmostEqual(found["L"] / inductance, x / math.tanh(x), delta=2e-3)
+        self.assertAlmostEqual(x / math.tanh(x), 1.042, delta=1e-3)
+        self.assertAlmostEqual(found["R"] / resistance, 1, delta=2e-3)
 
     def test_an_output_that_would_destroy_an_input_is_refused(self):
         for name in ("coil.csv", "rl.toml"):
