@@ -13,6 +13,7 @@
 #include "lab/noise.hpp"
 #include "lab/scatter.hpp"
 #include "lab/standstill.hpp"
+#include "lab/stuck_sensor.hpp"
 
 namespace algest::cli {
 
@@ -105,7 +106,7 @@ void add_misses(const std::string& path, const model::Model& model, const plan::
 }
 
 /// What speaks against the estimates of each parameter.
-void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t ok, Diagnostics& diagnostics) {
+void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t ok, Diagnostics& diagnostics) {
     Diagnostics said_before;   // by plan_from_model, of the same file
     const auto model = model::read(path, false, said_before);
     if (!model) return;
@@ -126,6 +127,7 @@ void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Reco
         }
     }
     note(what_scatters(plan, replay));
+    note(lab::stuck_sensor(*model, plan, recording, stretch));
     if (!apart) add_misses(path, *model, plan, recording, replay, summary, diagnostics);
 }
 
@@ -141,7 +143,7 @@ void add_remarks(const std::string& model, const plan::Plan& plan, const lab::Re
     if (const auto why = what_makes_singular(plan, replay, summary)) diagnostics.note(recording.file, *why);
     const std::size_t ok = summary.count[static_cast<std::size_t>(Status::ok)];
     if (ok == 0) return;
-    add_doubts(model, plan, recording, replay, summary, ok, diagnostics);
+    add_doubts(model, plan, recording, stretch, replay, summary, ok, diagnostics);
     if (const auto still = what_stands_still(plan, recording, stretch, replay)) diagnostics.note(recording.file, *still);
 }
 

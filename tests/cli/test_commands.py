@@ -214,7 +214,6 @@ class Generate(CommandLine):
         _, err = self.algest("generate", "growing.toml", exit_code=2)
         self.assertIn("growing windows are for the annihilator", err)
 
-    def test_check_writes_nothing_and_shows_the_difference(self):
     def test_where_no_noise_is_declared(self):
         """A step declares noise of step/sqrt(12): the same estimator as with that noise, to rounding."""
         _, err = self.algest("generate", "rl.toml", "-o", "out")
@@ -236,6 +235,7 @@ class Generate(CommandLine):
         self.write("robust.toml", robust + "condition_limit = 300\n")
         self.assertNotIn("above 92", self.algest("generate", "robust.toml", "-o", "out", "--scalar", "float")[1])
 
+    def test_check_writes_nothing_and_shows_the_difference(self):
         out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
         self.assertIn("rl.hpp", out)
         self.assertEqual(self.files(), ["coil.csv", "rl.toml"])

@@ -95,6 +95,20 @@ class ReplayDoubts(CommandLine):
         self.assertNotIn("declares its noise", err)
 
 
+    def test_a_sensor_that_is_stuck(self):
+        """From 0.07 to 0.11 s the current stands at one value, twice a window of 20 ms, while the voltage goes on."""
+        lines = recording().splitlines()
+        for k in range(700, 1100):
+            lines[1 + k] = ",".join([*lines[1 + k].split(",")[:2], lines[700].split(",")[2]])
+        status, err = self.said(RL, "\n".join(lines) + "\n")
+        self.assertRegex(err, r"r.csv: note: i stands at \S+ from 0\.0699 to 0\.1099 s while v moves: its sensor is stuck")
+        _, err = self.said(RL, recording())
+        self.assertNotIn("stands at", err)
+        coarse = [line if k == 0 else ",".join([*line.split(",")[:2], f"{round(float(line.split(',')[2]) * 2) / 2}"]) for k, line in enumerate(recording().splitlines())]   # steps of 0.5 A
+        _, err = self.said(RL, "\n".join(coarse) + "\n")
+        self.assertNotIn("stands at", err)
+
+
 MOTOR = """\
 format = 1
 name = "motor"
