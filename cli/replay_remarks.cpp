@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "cli/replay_answer.hpp"
 #include "lab/discrete_system.hpp"
@@ -96,13 +97,16 @@ std::optional<std::string> what_scatters(const plan::Plan& plan, const lab::Repl
                        "the model misses something (algest discover), or a signal is held otherwise between samples", found);
 }
 
-/// Outputs that the model with its estimates does not follow. Where one stands apart a parameter changed, and no run with constant ones follows.
-void add_misses(const std::string& path, const model::Model& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary, Diagnostics& diagnostics) {
-    for (const lab::MissedOutput& m : lab::missed_outputs(model, plan, recording, replay, summary)) {
-        diagnostics.note(recording.file, fmt::format("a free run with the median estimates misses {} by {:.3g} {}rms from {:.6g} to {:.6g} s, {:.3g} times its declared noise and {:.0f} percent of its size: a constant or a unit is wrong, or the "
-                                                     "model misses something; to look for it: algest discover {} {} -o found",
-                                                     m.signal, m.rmse, m.unit.empty() ? "" : m.unit + " ", m.from_s, m.to_s, m.floors, 100 * m.share, path, recording.file));
+/// Outputs that the model with its estimates does not follow.
+std::optional<std::string> what_is_missed(const std::string& path, const model::Model& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary) {
+    const std::vector<lab::MissedOutput> missed = lab::missed_outputs(model, plan, recording, replay, summary);
+    if (missed.empty()) return std::nullopt;
+    std::string outputs;
+    for (const lab::MissedOutput& m : missed) {
+        outputs += fmt::format("{}{} by {:.3g} {}rms ({:.3g} times its declared noise, {:.0f} percent of its size)", outputs.empty() ? "" : ", ", m.signal, m.rmse, m.unit.empty() ? "" : m.unit + " ", m.floors, 100 * m.share);
     }
+    return fmt::format("a free run with the median estimates misses {} from {:.6g} to {:.6g} s: a constant or a unit is wrong, the model misses something, or a disturbance that it does not know moved the machine; to look for it: algest discover {} {} -o found", outputs,
+                       missed.front().from_s, missed.front().to_s, path, recording.file);
 }
 
 /// What speaks against the estimates of each parameter.
@@ -128,7 +132,7 @@ void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Reco
     }
     note(what_scatters(plan, replay));
     note(lab::stuck_sensor(*model, plan, recording, stretch));
-    if (!apart) add_misses(path, *model, plan, recording, replay, summary, diagnostics);
+    if (!apart) note(what_is_missed(path, *model, plan, recording, replay, summary));   // else a parameter changed, and no run with constant ones follows
 }
 
 bool every_window_is_singular(const lab::ReplaySummary& summary) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "lab/estimates_run.hpp"
+#include "lab/fit.hpp"
 #include "lab/median.hpp"
 #include "lab/noise.hpp"
 #include "lab/white_noise.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr double push = 0.01;       ///< of each state's size: a disturbed start
 constexpr double forgotten = 0.3;   ///< of the push, what may be left of it on average over the second half
 constexpr std::size_t stretches = 8;   ///< of the ok estimates: a change in the last eighth is seen
-constexpr std::size_t fewest = 100;    ///< samples of a run that says something
+constexpr std::size_t fewest = 100;    ///< samples of a run, and ok estimates, that say something
 
 double rms_of_difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t from, std::size_t to) {
     double squares = 0;
@@ -53,7 +54,8 @@ std::optional<std::vector<double>> uncertainties(const model::Model& model, cons
     return out;
 }
 
-bool starts_unknown(const model::Model& model, const Bench& bench) {
+/// Where a run cannot be held against the model: a state starts nobody knows where, a sensor is late, or an equation leaves a perturbation open.
+bool says_nothing(const model::Model& model, const Bench& bench) {
     return std::any_of(bench.system.states.begin(), bench.system.states.end(), [&](const StateEntry& e) { return bench.measured[static_cast<std::size_t>(e.signal)].empty(); }) ||
            std::any_of(model.signals.begin(), model.signals.end(), [](const model::Signal& s) { return s.lag > 0; }) ||
            std::any_of(model.equations.begin(), model.equations.end(), [](const model::Equation& e) { return e.kappa > 0; });
@@ -70,6 +72,21 @@ Drive noisier(const model::Model& model, const Bench& bench) {
     return out;
 }
 
+/// From a disturbed start, with noisier inputs, and with each parameter moved by what it is uncertain by.
+std::vector<FreeRun> disturbed_runs(const model::Model& model, const Bench& bench, const std::vector<double>& parameters, const std::vector<double>& uncertain, const RunOptions& options) {
+    std::vector<FreeRun> out;
+    std::vector<double> start = bench.initial;
+    for (std::size_t i = 0; i < start.size(); ++i) start[i] += push * bench.options.scale[i];
+    out.push_back(free_run(bench.system, parameters, start, bench.drive, options));
+    out.push_back(free_run(bench.system, parameters, bench.initial, noisier(model, bench), options));
+    for (std::size_t p = 0; p < uncertain.size(); ++p) {
+        std::vector<double> moved = parameters;
+        moved[p] += uncertain[p];
+        out.push_back(free_run(bench.system, moved, bench.initial, bench.drive, options));
+    }
+    return out;
+}
+
 /// As many samples as `runs` runs can have.
 std::size_t samples_within(const Bench& bench, double runs) {
     const double evaluations = 6.0 * static_cast<double>(bench.system.moving.size()) + 1.0;   // of a step a sample (free_run.hpp)
@@ -81,28 +98,19 @@ std::size_t samples_within(const Bench& bench, double runs) {
 
 std::vector<MissedOutput> missed_outputs(const model::Model& model, const plan::Plan& plan, const Recording& recording, const Replay& replay, const ReplaySummary& summary) {
     Diagnostics unsaid;   // a model that cannot be run is no fault here
-    if (plan.discrete || model.filter) return {};
+    if (plan.discrete || model.filter || summary.count[static_cast<std::size_t>(Status::ok)] < fewest) return {};
     const auto ready = estimates_run(model, plan, recording, replay, summary, unsaid);
     const auto uncertain = uncertainties(model, plan, replay, summary);
-    if (!ready || !uncertain || starts_unknown(model, ready->bench)) return {};
+    if (!ready || !uncertain || says_nothing(model, ready->bench)) return {};
     const Bench& bench = ready->bench;
+    const std::vector<int> outputs = scored_outputs(model, bench);
+    if (std::none_of(outputs.begin(), outputs.end(), [&](int s) { return declares_noise(model.signals[static_cast<std::size_t>(s)]); })) return {};   // no yardstick
     RunOptions options = bench.options;
     options.end = samples_within(bench, static_cast<double>(uncertain->size()) + 3);
     if (options.end < fewest) return {};
-    const auto run = [&](const std::vector<double>& parameters, const std::vector<double>& initial, const Drive& drive) { return free_run(bench.system, parameters, initial, drive, options); };
-    const FreeRun median = run(ready->parameters, bench.initial, bench.drive);
+    const FreeRun median = free_run(bench.system, ready->parameters, bench.initial, bench.drive, options);
     if (median.samples < options.end) return {};
-
-    std::vector<FreeRun> others;   // the first from a disturbed start
-    std::vector<double> start = bench.initial;
-    for (std::size_t i = 0; i < start.size(); ++i) start[i] += push * bench.options.scale[i];
-    others.push_back(run(ready->parameters, start, bench.drive));
-    others.push_back(run(ready->parameters, bench.initial, noisier(model, bench)));
-    for (std::size_t p = 0; p < uncertain->size(); ++p) {
-        std::vector<double> moved = ready->parameters;
-        moved[p] += (*uncertain)[p];
-        others.push_back(run(moved, bench.initial, bench.drive));
-    }
+    const std::vector<FreeRun> others = disturbed_runs(model, bench, ready->parameters, *uncertain, options);
     const std::vector<double> noise = noise_by_signal(model, bench);
     const std::size_t from = options.end / 2;
     std::vector<MissedOutput> out;
@@ -115,7 +123,7 @@ std::vector<MissedOutput> missed_outputs(const model::Model& model, const plan::
             known = known && other.samples == median.samples;   // a run that diverges says that this one may
             if (!known) break;
             const double moved = rms_of_difference(other.signals[s], median.signals[s], from, options.end);
-            if (&other == others.data()) known = moved < forgotten * push * size_of(bench.measured[s]);
+            if (&other == &others.front()) known = moved < forgotten * push * size_of(bench.measured[s]);
             squares += moved * moved;
         }
         const double explained = std::sqrt(squares);

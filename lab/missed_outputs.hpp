@@ -31,7 +31,7 @@ constexpr double missed_beyond_uncertainty = 3.0;
 /// Outputs with declared noise that a free run with the median estimates over what was replayed misses by more than all of these: missed_floors of that noise,
 /// missed_share of the signal, and what the start, the declared noise of the inputs, and the range and bias of the estimates explain.
 /// Empty, too, where such a run says nothing: the model cannot be simulated, has a hidden state or a late sensor, an equation leaves a perturbation open (kappa
-/// above 0), or a parameter has no estimate. An output that does not forget a disturbed start (an angle that integrates, an unstable plant) is not looked at.
+/// above 0), a parameter has no estimate, or there are fewer than a hundred. An output that does not forget a disturbed start (an angle that integrates, an unstable plant) is not looked at.
 /// Cost: parameters + 3 free runs of about `most_effort_of_a_look` operations together; a longer recording is looked at so far.
 std::vector<MissedOutput> missed_outputs(const model::Model& model, const plan::Plan& plan, const Recording& recording, const Replay& replay, const ReplaySummary& summary);
 constexpr double most_effort_of_a_look = 1e9;   ///< 1.5 s
