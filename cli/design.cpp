@@ -43,12 +43,18 @@ ordered_json design_json(const DesignOptions& options, const model::Model& model
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+std::string row_text(const lab::Trial& t, const std::string& mark) {
+    return fmt::format("{:>10.6g}  {:>10}  {:>12}  {:>10}  {:>7}  {}{}\n", t.window_s, percent(t.noise), percent(t.perturbation), percent(t.error), percent(t.ok), t.engine.engine, mark);
+}
+
+bool same_rows(const lab::Trial& a, const lab::Trial& b) { return a.kappa == b.kappa && a.rows == b.rows; }
+
+/// The model as it is, and what is recommended where that has another kappa or more rows.
 std::string curve_text(const lab::Design& design) {
     std::string out = fmt::format("{:>10}  {:>10}  {:>12}  {:>10}  {:>7}  {}\n", "window [s]", "noise", "perturbation", "error", "ok", "engine");
-    for (const lab::Trial& t : design.curve) {
-        const bool chosen = design.recommended && t.window_s == design.recommended->window_s;
-        out += fmt::format("{:>10.6g}  {:>10}  {:>12}  {:>10}  {:>7}  {}{}\n", t.window_s, percent(t.noise), percent(t.perturbation), percent(t.error), percent(t.ok), t.engine.engine, chosen ? "  <-" : "");
-    }
+    const lab::Trial* best = design.recommended ? &*design.recommended : nullptr;
+    for (const lab::Trial& t : design.curve) out += row_text(t, best != nullptr && t.window_s == best->window_s && same_rows(t, *best) ? "  <-" : "");
+    if (best != nullptr && (design.curve.empty() || !same_rows(*best, design.curve.front()))) out += "with the kappa and rows that are recommended below:\n" + row_text(*best, "  <-");
     return out;
 }
 
@@ -62,7 +68,7 @@ std::string numbers(const std::vector<int>& of) {
 std::string beside_the_table(const lab::Design& design) {
     const lab::Trial& best = *design.recommended;
     for (const lab::Trial& t : design.curve) {
-        if (t.window_s == best.window_s && (t.kappa != best.kappa || t.rows != best.rows)) return fmt::format("; with the model's own kappa and rows {}", percent(t.error));
+        if (t.window_s == best.window_s && !same_rows(t, best)) return fmt::format("; with the model's own kappa and rows {}", percent(t.error));
     }
     return "";
 }

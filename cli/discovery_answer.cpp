@@ -48,7 +48,11 @@ ordered_json recordings_json(const lab::Discovery& d, const DiscoveryFiles& file
 }
 
 /// "R = 3.01 +- 0.02 ohm"
-std::string with_deviation(const lab::NamedParameter& p) { return fmt::format("{} = {:.6g} +- {:.2g} {}", p.name, p.value, p.sd, p.unit.empty() ? "(no unit)" : p.unit); }
+std::string with_deviation(const lab::NamedParameter& p) {
+    const std::string unit = p.unit.empty() ? "(no unit)" : p.unit;
+    if (!std::isfinite(p.sd)) return fmt::format("{}: not seen by the data; the fit stopped at {:.6g} {}", p.name, p.value, unit);
+    return fmt::format("{} = {:.6g} +- {:.2g} {}", p.name, p.value, p.sd, unit);
+}
 
 }  // namespace
 

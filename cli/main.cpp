@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -199,6 +200,11 @@ int complain(const std::string& what, const std::string& right, bool json) {
     return fail(diagnostics, json);
 }
 
+bool is_model(const std::string& path) { return path.ends_with(".toml"); }
+
+/// True where a model stands in the place of a recording and none in its own.
+bool swapped(const std::string& model, const std::vector<std::string>& recordings) { return !is_model(model) && std::any_of(recordings.begin(), recordings.end(), is_model); }
+
 /// The words behind `algest`; `help COMMAND`, as other tools have it, is `COMMAND --help`.
 std::vector<std::string> words_of(int argc, char** argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
@@ -250,6 +256,10 @@ int parse_and_run(const std::vector<std::string>& words, bool json) {
         return complain(error.what(), command.empty() ? "`algest --help` lists what there is" : "`algest " + command + " --help` shows how, with examples", json);
     }
     replay_options.command = simulate_options.command = words;
+    for (const auto& [command, model, recordings] : {std::tuple(replay_command, replay_options.model, replay_options.recordings), std::tuple(design_command, design_options.model, std::vector{design_options.recording}),
+                                                     std::tuple(simulate_command, simulate_options.model, std::vector{simulate_options.recording}), std::tuple(discover_command, discover_options.model, discover_options.recordings)}) {
+        if (command->parsed() && swapped(model, recordings)) return complain(algest::quoted(model) + " stands where the model belongs and a .toml among the recordings: they look swapped", "algest " + command->get_name() + " MODEL RECORDING", json);
+    }
     if (check_command->parsed()) return check(check_options);
     if (keys_command->parsed()) return keys(keys_options);
     if (derive_command->parsed()) return derive(derive_options);

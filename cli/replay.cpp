@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/output_file.hpp"
@@ -47,16 +50,16 @@ std::optional<lab::Replay> run(const ReplayOptions& options, const plan::Plan& p
     return replay;
 }
 
-/// What -o and --report ask for; false, and an error, where it cannot be made.
+/// What -o and --report ask for; false, and an error, where it cannot be made. doubts: for the page.
 bool write_outputs(const ReplayOptions& options, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary,
-                   Diagnostics& diagnostics) {
+                   const std::vector<std::string>& doubts, Diagnostics& diagnostics) {
     std::vector<lab::NewFile> files;
     if (!options.output.empty()) files.push_back({options.output, lab::replay_csv(plan, replay)});
     if (!options.report.empty()) {
         Diagnostics said_before;   // by plan_from_model, of the same file
         const auto model = model::read(options.model, false, said_before);
         if (!model) return false;
-        const lab::Replayed replayed{plan, *model, recording, replay, summary, generator::derivation_latex(plan)};
+        const lab::Replayed replayed{plan, *model, recording, replay, summary, generator::derivation_latex(plan), doubts};
         files.push_back({options.report, lab::replay_report(replayed, {options.model, options.recordings[0], options.command}, lab::gnuplot, diagnostics)});
     }
     return lab::write_files(files, diagnostics);
@@ -85,15 +88,18 @@ int replay(const ReplayOptions& options) {
     const lab::ReplaySummary summary = lab::summarise(*replay);
     Diagnostics remarks;
     add_remarks(options.model, *plan, *recording, *stretch, *replay, summary, remarks);
-    if (!write_outputs(options, *plan, *recording, *replay, summary, diagnostics)) return fail(diagnostics, options.json);
+    const auto lacks = what_it_lacks(options.model, options.recordings[0], *plan, *replay, summary);
+    std::vector<std::string> doubts = texts_of(remarks);
+    if (lacks) doubts.push_back(*lacks);
+    if (!write_outputs(options, *plan, *recording, *replay, summary, doubts, diagnostics)) return fail(diagnostics, options.json);
     print_diagnostics(diagnostics);
     print_diagnostics(remarks);
     for (const std::string& written : {options.output, options.report}) if (!written.empty()) note("wrote " + written);
 
-    if (const auto lacks = what_it_lacks(options.model, options.recordings[0], *plan, *replay, summary)) note(*lacks);
+    if (lacks) note(*lacks);
     if (options.json) {
         nlohmann::ordered_json answer = replay_json(options.model, options.recordings[0], *plan, *replay, summary);
-        answer["notes"] = notes_json(remarks);
+        answer["notes"] = texts_of(remarks);
         print_json(answer);
     } else print(replay_text(*plan, *replay, summary));
     return exit_done;

@@ -71,9 +71,9 @@ std::optional<std::string> what_is_missing(const plan::Plan& plan, const lab::Re
     return lab::what_is_missing(plan, replay.points, summary.count[static_cast<std::size_t>(Status::ok)] > 0);
 }
 
-ordered_json notes_json(const Diagnostics& diagnostics) {
-    ordered_json out = ordered_json::array();
-    for (const Diagnostic& d : diagnostics.sorted()) if (d.severity == Severity::note) out.push_back(d.what);
+std::vector<std::string> texts_of(const Diagnostics& notes) {
+    std::vector<std::string> out;
+    for (const Diagnostic& d : notes.sorted()) if (d.severity == Severity::note) out.push_back(d.what);
     return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "generator/diagnostics.hpp"
 #include "generator/plan.hpp"
@@ -17,8 +18,8 @@ namespace algest::cli {
 nlohmann::ordered_json replay_json(const std::string& model, const std::string& recording, const plan::Plan& plan, const lab::Replay& replay,
                                    const lab::ReplaySummary& summary);
 
-/// What was said beside the numbers, a sentence each: "notes" of that answer.
-nlohmann::ordered_json notes_json(const Diagnostics& diagnostics);
+/// What was said beside the numbers, a sentence each: "notes" of that answer, doubts of its page.
+std::vector<std::string> texts_of(const Diagnostics& notes);
 
 /// What the data lack where operating points gave no answer, in words; empty: nothing.
 std::optional<std::string> what_is_missing(const plan::Plan& plan, const lab::Replay& replay, const lab::ReplaySummary& summary);

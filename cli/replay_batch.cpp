@@ -42,7 +42,7 @@ ordered_json batch_json(const ReplayOptions& options, const plan::Plan& plan, co
                               {"doubt", doubts[p] ? ordered_json(*doubts[p]) : ordered_json(nullptr)}});
     }
     ordered_json confusions = ordered_json::array();
-    for (const lab::Confusion& c : batch.confusions) confusions.push_back({{"unknowns", c.unknowns}, {"hardly", c.hardly}, {"text", c.text}});
+    for (const lab::Confusion& c : batch.confusions) confusions.push_back({{"unknowns", c.unknowns}, {"hardly", c.hardly}, {"text", c.text()}});
     return {{"model", options.model},
             {"recording", options.recordings[0]},
             {"samples", batch.samples},
@@ -63,7 +63,7 @@ std::string batch_text(const plan::Plan& plan, const lab::Batch& batch, const Do
         out += fmt::format("{:<{}}  {:>12}  {:>12}  {}\n", plan.parameters[p].name, width, text(batch.parameters[p].value), text(batch.parameters[p].deviation), plan.parameters[p].unit);
     }
     out += fmt::format("\n{} samples, rows of {} instants; condition {:.6g}; residuals correlated over {:.3g} instants\n", batch.samples, batch.instants, batch.condition, batch.memory);
-    for (const lab::Confusion& c : batch.confusions) out += (c.hardly ? "hardly identifiable from this recording: " : "not identifiable from this recording: ") + c.text + "\n";
+    for (const lab::Confusion& c : batch.confusions) out += (c.hardly ? "hardly identifiable from this recording: " : "not identifiable from this recording: ") + c.text() + "\n";
     for (const auto& d : doubts) if (d) out += "doubtful: " + *d + "\n";
     return out;
 }

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "cli/replay_answer.hpp"
 #include "lab/discrete_system.hpp"
 #include "lab/doubt.hpp"
+#include "lab/missed_outputs.hpp"
 #include "lab/noise.hpp"
 #include "lab/scatter.hpp"
 #include "lab/standstill.hpp"
+#include "lab/stuck_sensor.hpp"
 
 namespace algest::cli {
 
@@ -94,25 +97,42 @@ std::optional<std::string> what_scatters(const plan::Plan& plan, const lab::Repl
                        "the model misses something (algest discover), or a signal is held otherwise between samples", found);
 }
 
+/// Outputs that the model with its estimates does not follow.
+std::optional<std::string> what_is_missed(const std::string& path, const model::Model& model, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary) {
+    const std::vector<lab::MissedOutput> missed = lab::missed_outputs(model, plan, recording, replay, summary);
+    if (missed.empty()) return std::nullopt;
+    std::string outputs;
+    for (const lab::MissedOutput& m : missed) {
+        outputs += fmt::format("{}{} by {:.3g} {}rms ({:.3g} times its declared noise, {:.0f} percent of its size)", outputs.empty() ? "" : ", ", m.signal, m.rmse, m.unit.empty() ? "" : m.unit + " ", m.floors, 100 * m.share);
+    }
+    return fmt::format("a free run with the median estimates misses {} from {:.6g} to {:.6g} s: a constant or a unit is wrong, the model misses something, or a disturbance that it does not know moved the machine; to look for it: algest discover {} {} -o found", outputs,
+                       missed.front().from_s, missed.front().to_s, path, recording.file);
+}
+
 /// What speaks against the estimates of each parameter.
-void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Recording& recording, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t ok, Diagnostics& diagnostics) {
+void add_doubts(const std::string& path, const plan::Plan& plan, const lab::Recording& recording, const lab::Stretch& stretch, const lab::Replay& replay, const lab::ReplaySummary& summary, std::size_t ok, Diagnostics& diagnostics) {
     Diagnostics said_before;   // by plan_from_model, of the same file
     const auto model = model::read(path, false, said_before);
     if (!model) return;
     const bool undeclared = std::none_of(model->signals.begin(), model->signals.end(), lab::declares_noise);
     const auto note = [&](const std::optional<std::string>& text) { if (text) diagnostics.note(recording.file, *text); };
+    bool apart = false;
     for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
         const std::string& name = plan.parameters[p].name;
         const int declared = model->parameter_index(name);
         if (declared >= 0) note(what_lies_beyond(model->parameters[static_cast<std::size_t>(declared)], replay, p, ok));
         if (summary.deviation[p]) {
             note(what_is_hardly_told(name, *summary.last[p], *summary.deviation[p]));
-            note(what_stands_apart(name, replay, summary, p));
+            const auto stands = what_stands_apart(name, replay, summary, p);
+            note(stands);
+            apart = apart || stands;
         } else if (undeclared && plan.solve != Solve::least_squares) {
             note(what_no_noise_explains(name, replay, summary, p, ok));
         }
     }
     note(what_scatters(plan, replay));
+    note(lab::stuck_sensor(*model, plan, recording, stretch));
+    if (!apart) note(what_is_missed(path, *model, plan, recording, replay, summary));   // else a parameter changed, and no run with constant ones follows
 }
 
 bool every_window_is_singular(const lab::ReplaySummary& summary) {
@@ -127,7 +147,7 @@ void add_remarks(const std::string& model, const plan::Plan& plan, const lab::Re
     if (const auto why = what_makes_singular(plan, replay, summary)) diagnostics.note(recording.file, *why);
     const std::size_t ok = summary.count[static_cast<std::size_t>(Status::ok)];
     if (ok == 0) return;
-    add_doubts(model, plan, recording, replay, summary, ok, diagnostics);
+    add_doubts(model, plan, recording, stretch, replay, summary, ok, diagnostics);
     if (const auto still = what_stands_still(plan, recording, stretch, replay)) diagnostics.note(recording.file, *still);
 }
 

@@ -29,7 +29,7 @@ ordered_json answer(const ReplayOptions& options, const plan::Plan& plan, const 
     ordered_json notes;
     if (replay) {
         add_remarks(options.model, plan, *recording, stretch, *replay, summary, diagnostics);
-        notes = notes_json(diagnostics);
+        notes = texts_of(diagnostics);
         if (const auto lacks = what_it_lacks(options.model, file, plan, *replay, summary)) diagnostics.note(file, *lacks);
     }
     ordered_json out = replay ? replay_json(options.model, file, plan, *replay, summary) : ordered_json{{"recording", file}, {"error", errors_json(diagnostics)}};

@@ -196,7 +196,7 @@ private:
 
     bool refuse_open(const Component& c, const Undetermined& open) {
         diagnostics_.unidentifiable(model_.path, equation(c.equations[0]).at, list(open.parameters) + " cannot be told apart by what equation '" + equation(c.equations[0]).name + "' says of them",
-                                    "declare " + std::to_string(open.missing) + " of them under [constants], or name what is seen of them as a parameter of its own");
+                                    "declare " + choice(open, names_) + " under [constants], or name what is seen of them as a parameter of its own");
         return false;
     }
 

@@ -112,7 +112,7 @@ std::optional<plan::Moments> moments(const model::Model& model, const std::strin
         else diagnostics.error(model.path, model.growing_at, "a growing window needs engine moments, and " + why, "leave growing out, or what stands against it");
         return std::nullopt;
     }
-    const bool noisy = std::any_of(model.signals.begin(), model.signals.end(), [](const model::Signal& s) { return s.noise && !cln::zerop(*s.noise); });
+    const bool noisy = std::any_of(model.signals.begin(), model.signals.end(), [](const model::Signal& s) { return s.deviation().has_value(); });
     if (noisy && plan.solve != algest::Solve::least_squares && model.estimator.uncertainty.value_or(true)) {
         plan.notes.push_back("no uncertainty(): it reads whole windows, which engine moments does not keep");
     }

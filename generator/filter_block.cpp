@@ -86,7 +86,7 @@ FilterBlock filter_block(const model::Model& model, plan::Scalar scalar) {
         out.inputs.push_back({{signal.name, signal.unit, signal.column, signal.min ? exact::nearest(*signal.min, scalar) : -infinity,
                                signal.max ? exact::nearest(*signal.max, scalar) : infinity, true},
                               per_second,
-                              signal.noise});
+                              signal.deviation()});
     }
     return out;
 }

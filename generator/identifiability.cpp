@@ -112,14 +112,30 @@ Undetermined undetermined(const model::Model& model, const std::vector<OperatorF
     std::vector<bool> counted(columns, true);
     const std::size_t full = rank(matrix, counted);
     std::fill(counted.begin(), counted.begin() + static_cast<std::ptrdiff_t>(physical), false);
-    Undetermined out{physical - (full - rank(matrix, counted)), {}};
+    Undetermined out{physical - (full - rank(matrix, counted)), {}, {}};
     std::fill(counted.begin(), counted.end(), true);
     for (std::size_t k = 0; out.missing > 0 && k < physical; ++k) {   // those whose column adds nothing to the others
         counted[k] = false;
         if (rank(matrix, counted) == full) out.parameters.push_back(c.parameters[k]);
         counted[k] = true;
     }
+    for (std::size_t k = 0; out.missing > 0 && k < physical; ++k) {   // columns that add nothing even together
+        counted[k] = false;
+        if (rank(matrix, counted) == full) out.enough.push_back(c.parameters[k]);
+        else counted[k] = true;
+    }
     return out;
+}
+
+std::string choice(const Undetermined& open, const std::vector<std::string>& names) {
+    const auto list = [&](const std::vector<int>& parameters, const std::string& last) {
+        std::string out;
+        for (std::size_t k = 0; k < parameters.size(); ++k) out += (k == 0 ? "" : k + 1 == parameters.size() ? last : ", ") + names[static_cast<std::size_t>(parameters[k])];
+        return out;
+    };
+    if (open.enough.size() == open.parameters.size()) return list(open.parameters, " and ");
+    if (open.missing == 1) return "one of " + list(open.parameters, ", ");
+    return std::to_string(open.missing) + " of " + list(open.parameters, ", ") + ", e.g. " + list(open.enough, " and ");
 }
 
 }  // namespace algest::lumping

@@ -175,8 +175,8 @@ private:
 
     bool lump_component(const Component& c, int number) {
         const bool can_divide = size_of_denominator(c) <= 64;
-        if (const std::size_t missing = undetermined(model_, forms_, c, false).missing; missing > 0) {
-            return refuse_shortage(c, missing, can_divide ? "enter only through " + seen(divided(c)) : "enter only together");
+        if (const Undetermined open = undetermined(model_, forms_, c, false); open.missing > 0) {
+            return refuse_shortage(c, open, can_divide ? "enter only through " + seen(divided(c)) : "enter only together");
         }
         const bool ties = std::any_of(forms_.begin(), forms_.end(), without_parameters);
         if (ties) {
@@ -245,17 +245,17 @@ private:
         return false;
     }
 
-    bool refuse_shortage(const Component& c, std::size_t missing, const std::string& how) {
+    bool refuse_shortage(const Component& c, const Undetermined& open, const std::string& how) {
         const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
         diagnostics_.unidentifiable(model_.path, equation.at, "the " + std::to_string(c.parameters.size()) + " parameters " + list(c.parameters) + " " + how,
-                                    "declare " + std::to_string(missing) + " of them under [constants], or name these combinations as parameters");
+                                    "declare " + choice(open, names_) + " under [constants], or name these combinations as parameters");
         return false;
     }
 
     bool refuse_tied(const Component& c, const Undetermined& open) {
         const model::Equation& equation = model_.equations[static_cast<std::size_t>(c.equations[0])];
         diagnostics_.unidentifiable(model_.path, equation.at, list(open.parameters) + " cannot be told apart: an equation without unknowns ties the signals beside them together",
-                                    "declare " + std::to_string(open.missing) + " of them under [constants], or write what one signal is by the others");
+                                    "declare " + choice(open, names_) + " under [constants], or write what one signal is by the others");
         return false;
     }
 

@@ -57,6 +57,13 @@ Position Equation::place(int offset) const {
     return places[std::min(static_cast<std::size_t>(std::max(offset, 0)), places.size() - 1)];
 }
 
+std::optional<Rational> Signal::deviation() const {
+    const Rational sigma = noise.value_or(Rational(0));
+    const Rational step = resolution.value_or(Rational(0));
+    if (cln::zerop(step)) return cln::zerop(sigma) ? std::nullopt : noise;
+    return exact::function_value("sqrt", sigma * sigma + step * step / 12);
+}
+
 const Signal* Model::signal(const std::string& wanted) const {
     for (const Signal& s : signals) if (s.name == wanted) return &s;
     return nullptr;
@@ -92,7 +99,7 @@ std::optional<Model> read(const std::string& path, bool strict, Diagnostics& dia
 std::optional<Model> read_from_text(const std::string& text, const std::string& path, bool strict, Diagnostics& diagnostics) {
     Model model;
     model.path = path;
-    read_toml(path, text, "see the model file format in docs", diagnostics, [&](const toml::table& root, TomlAccess& file) {
+    read_toml(path, text, "docs/model-file.md has the format", diagnostics, [&](const toml::table& root, TomlAccess& file) {
         Reading reading{file, model, strict};
         read_sections(root, reading);
     });

@@ -32,6 +32,9 @@ struct Signal {
     formula::Formula formula;
     std::optional<Rational> steady;   ///< largest spread of its means over the quarters of a steady block, in the unit
     int lag = 0;                      ///< periods by which its sensor is late; estimators let the other signals wait
+
+    /// What the sensor is off by: its noise and its steps (uniform over a step: resolution / sqrt(12)) together. Empty where neither is declared, or both are 0.
+    std::optional<Rational> deviation() const;
 };
 
 struct Constant {

@@ -40,7 +40,7 @@ void check_window(Reading& reading) {
 void check_noise(const toml::table& t, Reading& reading) {
     const Estimator& e = reading.model.estimator;
     const std::vector<Signal>& signals = reading.model.signals;
-    const bool noisy = std::any_of(signals.begin(), signals.end(), [](const Signal& s) { return s.noise && !cln::zerop(*s.noise); });
+    const bool noisy = std::any_of(signals.begin(), signals.end(), [](const Signal& s) { return s.deviation().has_value(); });
     if (e.whiten && e.solve != Solver::square) {
         reading.file.error(*t.get("whiten"), "whiten is for the rows of one instant: solve = \"square\" with more rows than unknowns", "use solve = \"square\", or leave it out");
     }

@@ -68,7 +68,7 @@ std::vector<Rational> response_of(const Reading& reading, const model::Model& mo
 /// of sigma/sqrt(N), the halves of its ends aside. A block that may drift by `steady` ends half of that away from its mean, and blocks on one approach
 /// to rest drift alike: where rows are pooled that counts in full, as if it were noise.
 Rational deviation_of_sample(const model::Model& model, const model::Signal& signal) {
-    const Rational sigma = signal.noise.value_or(Rational(0));
+    const Rational sigma = signal.deviation().value_or(Rational(0));
     const bool averages = model.estimator.functional == model::Functional::average;
     const Rational averaged = averages ? Rational(cln::floor1(*model.window / *model.period)) : Rational(model.decimate);
     const bool pooled = model.estimator.solve == model::Solver::least_squares || model.estimator.solve == model::Solver::elimination;

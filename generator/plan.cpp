@@ -93,7 +93,8 @@ private:
         if (!plan_.normalise) return;
         const model::Signal& output = *model_.signal(model_.discrete->output);
         while (plan_.inputs[static_cast<std::size_t>(plan_.output)].name != output.name) ++plan_.output;
-        if (output.noise && model_.estimator.uncertainty.value_or(true)) plan_.output_noise = exact::nearest(*output.noise, plan_.scalar);
+        const std::optional<exact::Rational> noise = output.deviation();
+        if (noise && model_.estimator.uncertainty.value_or(true)) plan_.output_noise = exact::nearest(*noise, plan_.scalar);
         plan_.noise_floor = noise_of_rows(plan_);
         if (!plan_.noise_floor.empty()) plan_.margin_over_noise = floor_over_noise;
     }

@@ -4,8 +4,10 @@
 #include <limits>
 
 #include "generator/dimension.hpp"
+#include "generator/equation_unit.hpp"
 #include "generator/initial_value.hpp"
 #include "generator/tape_builder.hpp"
+#include "generator/tidy_unit.hpp"
 #include "generator/units.hpp"
 
 namespace algest::generator {
@@ -25,9 +27,8 @@ void perturbations(const model::Model& model, const lumping::Lumping& lumping, p
         const model::Equation& equation = model.equations[e];
         const lumping::LumpedEquation& lumped = lumping.equations[e];
         if (equation.perturbation.empty() || !lumped.used) continue;
-        const units::Unit unit = model::unit_of_equation(model, equation);
+        const std::string unit = model::unit_of_equation(model, equation).known() ? model::equation_unit(model, equation) : "";
         for (int i = 1; i <= equation.kappa; ++i, ++residual) {
-            const units::Unit of_coefficient = unit.over(units::Unit::parse("s")->power(i - 1));
             const int leading = map.quotient(lumped.leading, operations);
             const int coefficient = map.input(residual);
             map.result(lumped.divided ? map.times(coefficient, leading) : coefficient);
@@ -35,7 +36,7 @@ void perturbations(const model::Model& model, const lumping::Lumping& lumping, p
             const std::string power = i == 1 ? "1" : i == 2 ? "t" : "t^" + std::to_string(i - 1) + "/" + std::to_string(i - 1) + "!";
             const std::string what = equation.kappa == 1 ? "constant perturbation of '" + equation.name + "' on the window"
                                                          : "coefficient of " + power + " in the perturbation of '" + equation.name + "', t from the oldest sample of the window on";
-            plan.parameters.push_back({name, of_coefficient.known() ? of_coefficient.text() : "", what, 0.0, true});
+            plan.parameters.push_back({name, i == 1 || unit.empty() ? unit : units::tidy("(" + unit + ")/s^" + std::to_string(i - 1)), what, 0.0, true});
         }
     }
 }

@@ -17,10 +17,11 @@ std::optional<Rational> noise_of(const model::Model& model, const equation::Oper
     if (form.leading < 0) return std::nullopt;
     const equation::Term& term = form.terms[static_cast<std::size_t>(form.leading)];
     const model::Signal& signal = model.signals[static_cast<std::size_t>(form.atoms[static_cast<std::size_t>(term.product[0].atom)].signal)];
-    if (!signal.noise || cln::zerop(*signal.noise)) return std::nullopt;
+    const std::optional<Rational> sigma = signal.deviation();
+    if (!sigma) return std::nullopt;
     const auto coefficient = lumped.divided ? std::optional<Rational>(1) : model::at_initial(term.coefficient, model);
     if (!coefficient || cln::zerop(*coefficient)) return std::nullopt;
-    return *signal.noise * cln::abs(*coefficient) * functional.noise_gain(form.n);
+    return *sigma * cln::abs(*coefficient) * functional.noise_gain(form.n);
 }
 
 /// The unit of the equation's rows: divided, it is that of its highest derivative.

@@ -131,7 +131,7 @@ bool mentions_hertz(const std::string& text) {
 
 bool takes_turns_for_radians(const std::string& from, const std::string& to) {
     const auto has_angle = [](const std::string& unit) {
-        for (const char* angle : {"rad", "deg", "rev", "rpm", "turn", "cycle", "grad", "gon", "arc"}) if (unit.find(angle) != std::string::npos) return true;
+        for (const char* angle : {"rad", "deg", "rev", "rpm", "turn", "cycle", "grad", "gon", "arc", "\u00b0"}) if (unit.find(angle) != std::string::npos) return true;
         return false;
     };
     const auto a = Unit::parse(from);

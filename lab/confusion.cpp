@@ -23,16 +23,15 @@ std::string regressor(const plan::Plan& plan, Eigen::Index unknown) {
     return out;
 }
 
-namespace {
-
-using Eigen::MatrixXd;
-
-/// A single signal with a minus is that signal, and its factor takes the sign.
 std::string without_its_sign(const std::string& regressor, double& factor) {
     if (regressor.front() != '-' || regressor.find(' ') != std::string::npos) return regressor;
     factor = -factor;
     return regressor.substr(1);
 }
+
+namespace {
+
+using Eigen::MatrixXd;
 
 std::string plus(double factor, const std::string& name) {
     const std::string size = fmt::format("{:.4g}", std::abs(factor));
@@ -57,7 +56,7 @@ MatrixXd sparse_directions(const MatrixXd& of) {
 constexpr double small = 0.2;
 
 Confusion confusion(const plan::Plan& plan, const Decomposition& d, const MatrixXd& of_solution, const Eigen::RowVectorXd& direction, bool hardly) {
-    Confusion out{hardly, {}, {}};
+    Confusion out{hardly, {}, {}, {}, -1};
     const std::string apart = hardly ? "can hardly be told apart" : "cannot be told apart";
     const std::string throughout = hardly ? "almost throughout" : "throughout";
     std::vector<Eigen::Index> involved;
@@ -67,7 +66,8 @@ Confusion confusion(const plan::Plan& plan, const Decomposition& d, const Matrix
         out.unknowns.push_back(plan.lumped[static_cast<std::size_t>(u)].meaning);
     }
     if (involved.size() == 1) {
-        out.text = fmt::format("{}: what it multiplies, {}, is {}", out.unknowns[0], regressor(plan, involved[0]), hardly ? "nearly a sum of the others" : "zero throughout");
+        double unsigned_factor = 1;
+        out.why = fmt::format("{}: what it multiplies, {}, is {}", out.unknowns[0], without_its_sign(regressor(plan, involved[0]), unsigned_factor), hardly ? "nearly a sum of the others" : "zero throughout");
     } else if (involved.size() == 2) {
         const Eigen::Index a = involved[0];
         const Eigen::Index b = involved[1];
@@ -77,8 +77,8 @@ Confusion confusion(const plan::Plan& plan, const Decomposition& d, const Matrix
         double times = ratio;
         const std::string first = without_its_sign(regressor(plan, a), times);
         const std::string second = without_its_sign(regressor(plan, b), times);
-        out.text = fmt::format("{} and {} {}: {} is {:.3g} times {} {}; determined is {}{} = {:.4g}, sd {:.2g}", out.unknowns[0], out.unknowns[1], apart,
-                               second, times, first, throughout, out.unknowns[0], plus(ratio, out.unknowns[1]), value, sd);
+        out.why = fmt::format("{} and {} {}: {} is {:.3g} times {} {}", out.unknowns[0], out.unknowns[1], apart, second, times, first, throughout);
+        out.determined = fmt::format("determined is {}{} = {:.4g}, sd {:.2g}", out.unknowns[0], plus(ratio, out.unknowns[1]), value, sd);
     } else {
         std::string names;
         std::string sum;
@@ -87,7 +87,7 @@ Confusion confusion(const plan::Plan& plan, const Decomposition& d, const Matrix
             const double part = direction(involved[i]) / d.norm(involved[i]) * d.norm(involved[0]) / direction(involved[0]);
             sum += i == 0 ? "(" + regressor(plan, involved[i]) + ")" : plus(part, "(" + regressor(plan, involved[i]) + ")");
         }
-        out.text = fmt::format("{} {}: {} is zero {}", names, apart, sum, throughout);
+        out.why = fmt::format("{} {}: {} is zero {}", names, apart, sum, throughout);
     }
     return out;
 }
@@ -99,7 +99,9 @@ std::vector<Confusion> confusions(const plan::Plan& plan, const Decomposition& d
     const MatrixXd open = sparse_directions(d.right.rightCols(d.right.cols() - d.rank));
     for (Eigen::Index r = 0; r < open.rows(); ++r) out.push_back(confusion(plan, d, of_solution, open.row(r), false));
     for (Eigen::Index i = 0; i < d.rank; ++i) {
-        if (d.singular(0) > dependent_columns * d.singular(i)) out.push_back(confusion(plan, d, of_solution, d.right.col(i).transpose(), true));
+        if (d.singular(0) <= dependent_columns * d.singular(i)) continue;
+        out.push_back(confusion(plan, d, of_solution, d.right.col(i).transpose(), true));
+        out.back().direction = i;
     }
     return out;
 }

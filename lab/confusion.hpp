@@ -13,14 +13,21 @@ namespace algest::lab {
 struct Confusion {
     bool hardly;                              ///< they have values, with large deviations
     std::vector<std::string> unknowns;
-    std::string text;
+    std::string why;                          ///< which, and what stands still or moves alike
+    std::string determined;                   ///< what is known instead, with its value; empty where that is nothing
+    Eigen::Index direction;                   ///< which singular vector; -1: of several that are undetermined
+
+    std::string text() const { return determined.empty() ? why : why + "; " + determined; }
 };
 
 /// Belsley, Kuh, Welsch: columns of norm 1 whose condition is above 30 nearly depend on each other.
 constexpr double dependent_columns = 30.0;
 
-/// What an unknown multiplies, in the first row that has it: "omega", "der(i) + ...".
+/// What an unknown multiplies, in the first row that has it: "omega", "-u", "der(i) + ...".
 std::string regressor(const plan::Plan& plan, Eigen::Index unknown);
+
+/// A single signal with a minus is that signal, and its factor takes the sign.
+std::string without_its_sign(const std::string& regressor, double& factor);
 
 /// One for each direction that is undetermined, in as few unknowns as may be, then one for each that is hardly determined. of_solution: covariance().
 /// Cost: unknowns^3.

@@ -56,7 +56,7 @@ public:
         }
         out_.recommended = best();
         out_.reached = out_.recommended && out_.recommended->error <= options_.accuracy.value_or(1.0);   // beyond 1 an estimate is as wide as it is large
-        out_.missing = lacking(with_window(out_.recommended ? intervals_of(*out_.recommended) : lengths[lengths.size() / 2]));
+        out_.missing = lacking(out_.recommended ? as_tried(*out_.recommended) : with_window(lengths[lengths.size() / 2]));
         return out_;
     }
 
@@ -99,6 +99,16 @@ private:
     model::Model with_window(int intervals) const {
         model::Model out = model_;
         out.window = model_.window_period() * intervals;
+        return out;
+    }
+
+    model::Model as_tried(const Trial& trial) const {
+        model::Model out = with_window(intervals_of(trial));
+        for (std::size_t e = 0; e < out.equations.size(); ++e) {
+            out.equations[e].kappa = trial.kappa[e];
+            out.equations[e].rows.count.reset();
+            out.equations[e].rows.list = trial.rows[e];
+        }
         return out;
     }
 
@@ -276,7 +286,7 @@ private:
         model.estimator.engine = "fir";
         Diagnostics unsaid;
         const auto plan = plan_of(model, true, unsaid);
-        return plan ? missing_excitation(*plan, recording_) : std::vector<std::string>();
+        return plan ? missing_excitation(model, *plan, recording_) : std::vector<std::string>();
     }
 
     const model::Model& model_;

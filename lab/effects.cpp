@@ -8,11 +8,11 @@
 #include <set>
 
 #include "generator/dimension.hpp"
+#include "generator/equation_unit.hpp"
 #include "generator/units.hpp"
 #include "lab/bound_edits.hpp"
 #include "lab/couplings.hpp"
 #include "lab/effect_file.hpp"
-#include "lab/equation_unit.hpp"
 #include "lab/outputs.hpp"
 #include "lab/roles.hpp"
 #include "lab/rotating_frame.hpp"
@@ -32,13 +32,13 @@ std::optional<std::string> unit_that_fits(const Effect& effect, const model::Mod
     if (effect.units.empty()) return "";
     const model::Equation& e = model.equations[equation];
     const Unit unit = model::unit_of_equation(model, e);
-    for (const std::string& u : effect.units) if (fits(unit, u)) return is(unit, u) ? u : equation_unit(model, e);
+    for (const std::string& u : effect.units) if (fits(unit, u)) return is(unit, u) ? u : model::equation_unit(model, e);
     const std::string balance = balanced(model, e);
     if (balance.empty() || std::find(effect.units.begin(), effect.units.end(), balance) == effect.units.end()) return std::nullopt;
     const Moved own = moved(model, e);
     const std::string& of_signal = model.signals[static_cast<std::size_t>(own.signal)].unit;
     const std::string rate = of_signal.empty() ? "" : own.order == 1 ? "(" + of_signal + ")/s" : "(" + of_signal + ")/s^" + std::to_string(own.order);
-    return !unit.known() ? "" : is(unit, rate) ? rate : equation_unit(model, e);
+    return !unit.known() ? "" : is(unit, rate) ? rate : model::equation_unit(model, e);
 }
 
 /// Every combination of what may stand for the roles in an equation.

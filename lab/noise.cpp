@@ -19,8 +19,10 @@ double roughness(const std::vector<double>& x) {
 }
 
 bool declares_noise(const model::Signal& signal) {
-    return (signal.noise && !cln::zerop(*signal.noise)) || (signal.resolution && !cln::zerop(*signal.resolution));
+    return signal.deviation().has_value();
 }
+
+double declared_noise(const model::Signal& signal) { return exact::nearest(*signal.deviation(), plan::Scalar::float64); }
 
 bool guesses_noise(const model::Model& model, const Bench& bench) {
     const auto outputs = scored_outputs(model, bench);
@@ -32,10 +34,8 @@ std::vector<double> noise_by_signal(const model::Model& model, const Bench& benc
     const std::vector<int> simulated = simulated_signals(bench.system);
     for (std::size_t s = 0; s < model.signals.size(); ++s) {
         const model::Signal& signal = model.signals[s];
-        const double noise = signal.noise ? exact::nearest(*signal.noise, plan::Scalar::float64) : 0.0;
-        const double step = signal.resolution ? exact::nearest(*signal.resolution, plan::Scalar::float64) : 0.0;
         if (bench.measured[s].empty()) out.push_back(0);
-        else if (declares_noise(signal)) out.push_back(std::sqrt(noise * noise + step * step / 12.0));   // rounding: uniform over a step
+        else if (declares_noise(signal)) out.push_back(declared_noise(signal));
         else out.push_back(std::find(simulated.begin(), simulated.end(), static_cast<int>(s)) != simulated.end() ? roughness(bench.measured[s]) : 0);
     }
     return out;

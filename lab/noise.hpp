@@ -10,6 +10,9 @@ namespace algest::lab {
 /// A sensor without any noise is none: noise = 0 declares nothing.
 bool declares_noise(const model::Signal& signal);
 
+/// Of a signal that does: its standard deviation, in its unit.
+double declared_noise(const model::Signal& signal);
+
 /// True when some scored output declares none: its floor is then a guess, and no bar.
 bool guesses_noise(const model::Model& model, const Bench& bench);
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "lab/fit.hpp"
 #include "lab/noise.hpp"
@@ -14,13 +16,21 @@ namespace {
 
 constexpr double clipped_share = 0.005;       ///< of the samples at one extreme value, in runs
 constexpr std::size_t clipped_run = 5;        ///< samples in a row at an extreme that no noise would make alike
+constexpr double abrupt = 2.5;                ///< smallest steps of the signal: what settles on a step of its sensor, or turns round there, comes and goes by one
 constexpr double overstated = 3;              ///< declared noise over roughness: white noise is as rough as it is large, coloured noise less
 constexpr double still_share = 0.5;           ///< of an input's steps that are zero: it is held
 constexpr std::size_t least_jumps = 3;
 
-/// Share of samples that stand in runs at the largest or smallest value.
+double smallest_step(const std::vector<double>& x) {
+    double out = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < x.size(); ++k) if (x[k] != x[k - 1]) out = std::min(out, std::abs(x[k] - x[k - 1]));
+    return out;
+}
+
+/// Share of samples that stand in runs at the largest or smallest value, into which or out of which the signal jumps.
 double clipped(const std::vector<double>& x) {
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    const double jump = abrupt * smallest_step(x);
     std::size_t count = 0;
     for (const double extreme : {*low, *high}) {
         std::size_t run = 0;
@@ -29,7 +39,9 @@ double clipped(const std::vector<double>& x) {
                 ++run;
                 continue;
             }
-            if (run >= clipped_run) count += run;
+            const bool into = run < k && std::abs(x[k - run] - x[k - run - 1]) > jump;
+            const bool out_of = k < x.size() && std::abs(x[k] - extreme) > jump;
+            if (run >= clipped_run && (into || out_of)) count += run;
             run = 0;
         }
     }

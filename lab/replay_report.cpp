@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <map>
 
 #include "lab/discrete_system.hpp"
+#include "lab/estimates_run.hpp"
 #include "lab/figure_parts.hpp"
 #include "lab/mathml.hpp"
 #include "lab/quantity.hpp"
@@ -77,36 +77,18 @@ DataList statuses_data(const Replayed& r) {
     return list;
 }
 
-/// The rows of the recording that were replayed.
-Recording stretch_of(const Recording& recording, const Replay& replay) {
-    const RowRange rows = rows_of(recording, {replay.t.front(), replay.t.back()});
-    const auto cut = [&](std::vector<double>& values) {
-        values = std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(rows.begin), values.begin() + static_cast<std::ptrdiff_t>(rows.end));
-    };
-    Recording out = recording;
-    cut(out.t);
-    for (Column& column : out.columns) cut(column.values);
-    return out;
-}
-
 /// Sets `outputs_section`, or `not_simulated`: why there is no free run.
 void set_free_run(Data& page, const Replayed& r, Figures& figures) {
     Diagnostics complaints;
-    const Recording stretch = stretch_of(r.recording, r.replay);
-    std::map<std::string, double> medians;
-    for (std::size_t p = 0; p < r.plan.parameters.size(); ++p) {
-        if (r.summary.median[p] && r.model.parameter(r.plan.parameters[p].name) != nullptr) medians[r.plan.parameters[p].name] = *r.summary.median[p];
-    }
-    const bool estimated = r.summary.condition_last.has_value();
-    const auto bench = estimated ? lab::bench(r.model, stretch, complaints) : std::nullopt;
-    const auto parameters = bench ? parameter_values(r.model, medians, complaints) : std::nullopt;
-    page.set("simulated", parameters.has_value());
+    const auto estimated = estimates_run(r.model, r.plan, r.recording, r.replay, r.summary, complaints);
+    page.set("simulated", estimated.has_value());
     page.set("outputs_section", std::string());
-    if (parameters) {
-        const FreeRun run = free_run(bench->system, *parameters, bench->initial, bench->drive, bench->options);
-        page.set("outputs_section", outputs_html(r.model, stretch, *bench, run, figures));
+    if (estimated) {
+        const Bench& bench = estimated->bench;
+        const FreeRun run = free_run(bench.system, estimated->parameters, bench.initial, bench.drive, bench.options);
+        page.set("outputs_section", outputs_html(r.model, estimated->stretch, bench, run, figures));
     }
-    std::string why = estimated ? "" : "no sample has status ok";
+    std::string why;
     for (const Diagnostic& d : complaints.sorted()) if (why.empty() && d.severity == Severity::error) why = d.what;
     set_text(page, "not_simulated", why);
 }
@@ -129,6 +111,9 @@ std::string replay_report(const Replayed& r, const PageFrame& frame, const Draw&
     page.set("single_precision", r.plan.scalar == plan::Scalar::float32);
     page.set("uncertain", r.plan.uncertain());
     set_list(page, "parameters", parameters_data(r));
+    DataList doubts;
+    for (const std::string& text : r.doubts) doubts.push_back(entry("doubt", text));
+    set_list(page, "doubts", std::move(doubts));
     set_list(page, "poles", poles_data(r));
     set_list(page, "estimates", estimates_data(r, figures));
     set_list(page, "statuses", statuses_data(r));

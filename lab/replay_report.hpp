@@ -2,6 +2,7 @@
 // The page that shows what an estimator said over a recording: one HTML file that needs nothing else.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "generator/plan.hpp"
 #include "lab/replay.hpp"
@@ -17,6 +18,7 @@ struct Replayed {
     const Replay& replay;
     const ReplaySummary& summary;
     std::string derivation;              ///< of the plan, in LaTeX
+    std::vector<std::string> doubts;     ///< what speaks against the estimates, in words
 };
 
 /// templates/report/replay.html.mustache, filled. The model is run freely with the median estimates beside the recording; where it cannot be, the

@@ -95,6 +95,16 @@ std::vector<std::vector<double>> own_starts(const Variant& v) {
 
 void finish(Score& score) { score.nrmse = std::sqrt(score.nrmse / static_cast<double>(std::max<std::size_t>(score.error.size(), 1))); }
 
+/// False, and an error, where a stretch begins before the recording or ends behind it: the part that is there is not what was asked for. The end may be
+/// a period behind the last sample: ten seconds of it.
+bool within(const Recording& recording, const std::string& option, const std::optional<std::pair<double, double>>& stretch, Diagnostics& diagnostics) {
+    const double first = recording.t.front();
+    const double last = recording.t.back();
+    if (!stretch || (stretch->first >= first - 0.5 * recording.period && stretch->second <= last + 1.5 * recording.period)) return true;
+    diagnostics.error(recording.file, {}, fmt::format("{} {:g}:{:g} is not within the recording, which goes from {:.6g} s to {:.6g} s", option, stretch->first, stretch->second, first, last), "a stretch of what was recorded");
+    return false;
+}
+
 }  // namespace
 
 bool is_kinematic(const model::Model& model, const model::Equation& e) {
@@ -132,6 +142,7 @@ std::optional<Parts> parts_of(const Recording& recording, const std::optional<st
                           fmt::format("train on less, e.g. --train {:g}:{:.3g}; at least {} samples behind it are needed", train->first, recording.t[out.train.begin + (samples - out.train.begin) * 7 / 10], least_test));
         return std::nullopt;
     }
+    if (!within(recording, "--train", train, diagnostics) || !within(recording, "--test", test, diagnostics)) return std::nullopt;
     if (out.train.end < out.train.begin + least_train || out.test.end < out.test.begin + least_test) {
         const auto size = [](const Rows& r) { return std::to_string(r.end > r.begin ? r.end - r.begin : 0); };
         diagnostics.error(recording.file, {}, "too short: " + size(out.train) + " samples to train on, " + size(out.test) + " to test on",
@@ -235,10 +246,34 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
             from.parameters = at.parameters;
         }
     }
+    settle_past(v, from);
     v.fit = fit(v.model, v.bench, from);
+    if (settle_past(v, start_of(v, v, &Parts::fitted))) v.fit = fit(v.model, v.bench, from);
     if (!(v.fit.cost < hopeless * hopeless)) fit_from_elsewhere(v, from);
     start_at_fit(v);
     v.score = free_run_score(v, &Parts::validation);
+}
+
+/// What a delayed input was before the first sample nobody recorded: its first value, or nothing, whichever the run is nearer with. True: it changed.
+bool Workbench::settle_past(Variant& v, const FitStart& at) const {
+    const auto starts_driven = [](const Bench& b) {
+        return std::any_of(b.system.delays.begin(), b.system.delays.end(), [&](const DelayedSignal& d) {
+            const std::vector<double>& recorded = b.drive.values[static_cast<std::size_t>(d.signal)];
+            return !d.moves && !recorded.empty() && recorded[0] != 0;
+        });
+    };
+    bool asked = false;
+    for (std::size_t r = 0; r < recordings(); ++r) asked = asked || starts_driven(bench_of(v, r));
+    if (!asked) return false;
+    const auto turn = [&] {
+        v.bench.drive.from_rest = !v.bench.drive.from_rest;
+        for (Bench& further : v.further) further.drive.from_rest = !further.drive.from_rest;
+    };
+    const double before = output_error(v.model, v.bench, at);
+    turn();
+    if (output_error(v.model, v.bench, at) < before) return true;
+    turn();
+    return false;
 }
 
 /// A fit that explains next to nothing is caught in a false minimum, or the model is wrong from the start: values that were declared, and

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The contract of the command line: exit codes, what goes to which stream, JSON, files."""
+import json
+import math
 import os
 import pty
 import re
 import subprocess
 import unittest
 
-from command_line import L, R, RL_CIRCUIT, CommandLine, coil_rows, csv
+from command_line import HEADER, L, R, RL_CIRCUIT, CommandLine, coil_rows, csv
 from environment import ALGEST, SOURCE
 
 
@@ -40,6 +42,12 @@ class Parsing(CommandLine):
             self.assertRegex(err, r"^algest: error: .*--help")
             self.assertEqual(list(self.algest_json(*words, exit_code=2)), ["error"])
         self.assertEqual(self.files(), ["coil.csv", "rl.toml"])
+
+    def test_model_and_recording_in_each_others_place(self):
+        for words in (["replay", "coil.csv", "rl.toml"], ["replay", "coil.csv", "coil.csv", "rl.toml"], ["design", "coil.csv", "rl.toml"], ["simulate", "coil.csv", "rl.toml"], ["discover", "coil.csv", "rl.toml", "-o", "found"]):
+            _, err = self.algest(*words, exit_code=2)
+            self.assertIn(f"'coil.csv' stands where the model belongs and a .toml among the recordings: they look swapped; algest {words[0]} MODEL RECORDING", err)
+            self.assertEqual(list(self.algest_json(*words, exit_code=2)), ["error"])
 
     def test_output_that_cannot_be_written_is_an_error(self):
         with open("/dev/full", "wb") as full:
@@ -84,6 +92,21 @@ class Check(CommandLine):
         self.assertIn("warning", err)
         self.assertIn("error", self.algest("check", "no_unit.toml", "--strict", exit_code=2)[1])
 
+    def test_where_the_format_is_described(self):
+        self.write("torn.toml", "[signals\n")
+        _, err = self.algest("check", "torn.toml", exit_code=2)
+        self.assertIn("torn.toml:1:", err)
+        self.assertIn("docs/model-file.md", err)
+
+    def test_which_parameters_have_to_be_known(self):
+        """Of a*b*i only the product is seen, of c*d*i^2 too: one of each pair. Any two of the four would not do."""
+        self.write("open.toml", RL_CIRCUIT.replace("u - R*i", "u - a*b*i - c*d*i^2").replace("R = { unit = \"ohm\", initial = 1 }", "a = { initial = 1 }\nb = { initial = 1 }\nc = { initial = 1 }\nd = { initial = 1 }").replace('unit = "V"', "").replace('unit = "A"', ""))
+        _, err = self.algest("check", "open.toml", exit_code=1)
+        self.assertIn("declare 2 of a, b, c, d, e.g. a and c under [constants]", err)
+        self.write("open.toml", RL_CIRCUIT.replace("u - R*i", "u - R*k*i").replace("R = {", 'k = { unit = "1", initial = 1 }\nR = {'))
+        _, err = self.algest("check", "open.toml", exit_code=1)
+        self.assertIn("declare one of k, R under [constants]", err)   # L is seen
+
     def test_a_parameter_that_no_row_sees_is_answered_with_no(self):
         # kappa = 1 annihilates the constant that c adds
         self.write("blind.toml", RL_CIRCUIT.replace("u - R*i", "u - R*i - c").replace(
@@ -113,6 +136,29 @@ class Derive(CommandLine):
         value = self.algest_json("derive", "rl.toml", "--weights")
         terms = [t for e in value["equations"] for r in e["rows"] for t in r["terms"]]
         self.assertTrue(all(len(t["weights"]) == 51 for t in terms))     # 0.05 s at 1 ms
+
+
+    def test_the_unit_of_a_perturbation_is_one_of_its_equation(self):
+        """J*der(w) is in kg.m^2.rad/s^2, as UDUNITS has it m2.kg.s-2.rad; K*i says N.m."""
+        self.write("load.toml", """\
+name = "load"
+[sampling]
+period = 1e-3
+window = 0.1
+[signals]
+i = { unit = "A" }
+w = { unit = "rad/s" }
+[constants]
+K = { value = 0.06, unit = "N.m/A" }
+[parameters]
+J = { unit = "kg.m^2", initial = 2e-4 }
+[[equation]]
+ode = "J*der(w) = K*i"
+kappa = 2
+perturbation = "load"
+""")
+        out, _ = self.algest("derive", "load.toml", "--format", "json")
+        self.assertEqual([(p["name"], p["unit"]) for p in json.loads(out)["equations"][0]["perturbation"]], [("load1", "N.m"), ("load2", "N.m/s")])
 
 
 class Generate(CommandLine):
@@ -167,6 +213,27 @@ class Generate(CommandLine):
         self.write("growing.toml", averages.replace("[sampling]\n", "[sampling]\ngrowing = true\n"))
         _, err = self.algest("generate", "growing.toml", exit_code=2)
         self.assertIn("growing windows are for the annihilator", err)
+
+    def test_where_no_noise_is_declared(self):
+        """A step declares noise of step/sqrt(12): the same estimator as with that noise, to rounding."""
+        _, err = self.algest("generate", "rl.toml", "-o", "out")
+        self.assertIn("rl.toml: note: no signal declares its noise", err)
+        deviations = []
+        for declared in ("noise = 1e-3", "resolution = 3.4641016151377546e-3"):
+            self.write("noisy.toml", RL_CIRCUIT.replace('i = { unit = "A" }', f'i = {{ unit = "A", {declared} }}'))
+            _, err = self.algest("generate", "noisy.toml", "-o", "out")
+            self.assertNotIn("no signal declares its noise", err)
+            deviations.append([p["sd"] for p in self.algest_json("replay", "noisy.toml", "coil.csv")["parameters"]])
+        for a, b in zip(*deviations):
+            self.assertAlmostEqual(a / b, 1, delta=1e-12)   # 12 digits of the root of 12
+
+    def test_robust_in_single_precision_says_what_it_refuses(self):
+        robust = RL_CIRCUIT + '[estimator]\nsolve = "robust"\n'
+        self.write("robust.toml", robust)
+        self.assertIn("a condition above 92 singular", self.algest("generate", "robust.toml", "-o", "out", "--scalar", "float")[1])
+        self.assertNotIn("above 92", self.algest("generate", "robust.toml", "-o", "out")[1])
+        self.write("robust.toml", robust + "condition_limit = 300\n")
+        self.assertNotIn("above 92", self.algest("generate", "robust.toml", "-o", "out", "--scalar", "float")[1])
 
     def test_check_writes_nothing_and_shows_the_difference(self):
         out, _ = self.algest("generate", "rl.toml", "--check", exit_code=1)
@@ -301,6 +368,33 @@ class Replay(CommandLine):
         found = self.algest_json("replay", "rl.toml", "other.csv")
         for a, b in zip(expected["parameters"], found["parameters"]):
             self.assertAlmostEqual(b["median"] / a["median"], 1, delta=1e-9)
+
+    def test_degrees_are_no_turns(self):
+        """An angular speed in degrees is converted and not warned of; one in Hz is, since UDUNITS takes a turn for a radian."""
+        model = RL_CIRCUIT.replace("[parameters]", 'w = { unit = "rad/s" }\n[parameters]').replace("u - R*i", "u - R*i - k*w").replace("[[equation]]", 'k = { unit = "V.s/rad", initial = 1 }\n[[equation]]')
+        self.write("turning.toml", model)
+        for unit, warned in (("\u00b0/s", False), ("degree/s", False), ("Hz", True)):
+            self.write("turning.csv", csv([(*row, row[1] + row[0]) for row in coil_rows(200)], HEADER + f",w [{unit}]"))
+            _, err = self.algest("replay", "turning.toml", "turning.csv")
+            self.assertEqual("read as an angular speed" in err, warned, unit)
+
+    def test_a_current_that_bends_between_samples(self):
+        """docs/controller.md: L/R = 1.4 periods. Over a period L (i1 - i0) = T (u - R (i0 + i1)/2) holds for lines with L' = R T/2 coth(T R/(2 L)) in L's place."""
+        period, resistance = 1e-3, 2.0
+        inductance = 1.4 * period * resistance
+        x = period * resistance / (2 * inductance)
+        decay, i, rows = math.exp(-2 * x), 0.0, []
+        for k in range(400):
+            u = 3 * math.sin(0.31 * k) + 2 * math.sin(0.047 * k)
+            rows.append((k / 1000, u, i))
+            i = decay * i + (1 - decay) * u / resistance
+        self.write("fast.csv", csv(rows))
+        self.write("fast.toml", RL_CIRCUIT.replace('u = { unit = "V" }', 'u = { unit = "V", hold = "zoh" }'))
+        found = {p["name"]: p["median"] for p in self.algest_json("replay", "fast.toml", "fast.csv")["parameters"]}
+        # Fifty periods a window: the kernel bends by (1/50)^2 within one, times the few percent at stake.
+        self.assertAlmostEqual(found["L"] / inductance, x / math.tanh(x), delta=2e-3)
+        self.assertAlmostEqual(x / math.tanh(x), 1.042, delta=1e-3)
+        self.assertAlmostEqual(found["R"] / resistance, 1, delta=2e-3)
 
     def test_an_output_that_would_destroy_an_input_is_refused(self):
         for name in ("coil.csv", "rl.toml"):

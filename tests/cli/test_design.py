@@ -214,6 +214,40 @@ class Design(CommandLine):
         out, _ = self.algest("design", "model.toml", recording, exit_code=1)
         self.assertEqual(out, "no window gives an estimate on this recording that rises above its own scatter\nmissing: K needs omega different from zero\n")
 
+    def test_what_moves_alike_is_missing_only_where_noise_hides_the_difference(self):
+        """A square wave of half a second is long against the coil's 25 ms: current and voltage have one shape but for the edges, a condition far above 30. Each
+        of eight edges shows L all the same, to well within a percent. At rest but for noise nothing does."""
+        def square(noise, step):
+            draw = random.Random(1)
+            decay = math.exp(-R / L * 1e-3)
+            i, rows = 3.0, "t [s],u [V],i [A]\n"
+            for k in range(4000):
+                u = 6 + step * (k // 500 % 2)
+                rows += f"{k / 1000},{u},{i + noise * draw.gauss(0, 1):.8g}\n"
+                i = decay * i + (1 - decay) * u / R
+            return rows
+        self.write("model.toml", COIL)
+        seen = self.algest_json("design", "model.toml", self.write("square.csv", square(1e-3, 3)))
+        values = {p["name"]: p["mean"] for p in seen["recommended"]["parameters"]}
+        self.assertLess(abs(values["L"] / L - 1), 0.01)
+        self.assertEqual(seen["missing"], [])
+        hidden = self.algest_json("design", "model.toml", self.write("still.csv", square(1e-3, 0)))
+        self.assertEqual(len(hidden["missing"]), 1, hidden["missing"])
+        self.assertRegex(hidden["missing"][0], r"^1/L and R/L can hardly be told apart: i is 0\.5\d* times u almost throughout$")
+
+    def test_the_arrow_stands_at_what_is_recommended(self):
+        """An offset of the voltage: kappa = 1 removes it, and the table is of kappa = 0."""
+        self.write("model.toml", COIL)
+        recording = self.write("offset.csv", coil(noise=0.005, bias=1.0))
+        best = self.algest_json("design", "model.toml", recording)["recommended"]
+        self.assertEqual(best["kappa"], [1])
+        out, _ = self.algest("design", "model.toml", recording)
+        marked = [line for line in out.splitlines() if line.endswith("<-")]
+        self.assertEqual(len(marked), 1, out)
+        self.assertEqual(float(marked[0].split()[0]), best["window_s"])
+        self.assertEqual(marked[0].split()[5:7], [f"{100 * best['error']:.3g}", "%"])
+        self.assertIn("with the kappa and rows that are recommended below:\n" + marked[0], out)
+
     def test_accuracy(self):
         recording = self.write("noisy.csv", coil(noise=0.05))
         self.write("model.toml", SQUARE)

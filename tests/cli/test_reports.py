@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--report of replay and simulate, opened in a browser: nothing overlaps or is cut, every axis has its unit, nothing comes from elsewhere."""
+import html
 import math
 import os
 import re
@@ -18,7 +19,7 @@ NOISY = RL_CIRCUIT.replace('i = { unit = "A" }', 'i = { unit = "A", noise = 1e-3
 HIDDEN = RL_CIRCUIT.replace('i = { unit = "A" }', 'i = { unit = "A" }\nv = { unit = "V" }').replace(
     "[parameters]", '[constants]\nT = { value = 0.01, unit = "s" }\n\n[parameters]').replace(
     'ode = "L*der(i) = u - R*i"', 'ode = "L*der(i) = v - R*i"\n\n[[equation]]\nname = "filter"\node = "T*der(v) = u - v"')
-HEADINGS = {"replay": ["Estimates", "Estimates over time", "Status and condition", "Measured and simulated", "Model and derivation", "Command"],
+HEADINGS = {"replay": ["Estimates", "Doubts", "Estimates over time", "Status and condition", "Measured and simulated", "Model and derivation", "Command"],
             "simulate": ["Measured and simulated", "Parameters", "Model", "Command"]}
 
 
@@ -111,6 +112,22 @@ functional = "discrete"
         self.assertAlmostEqual(float(found[1]), last, delta=0.6 * float(found[2]))    # rounded to a digit or two of sd
         self.assertAlmostEqual(float(found[2]) / sd, 1, delta=0.05)                  # two digits: 0.5/10
         self.assertIn("<pre>algest replay limited.toml holes.csv --report page.html</pre>", text)
+
+    def doubts(self, page):
+        return page.read_text(encoding="utf-8").split("<h2>Doubts</h2>")[1].split("</section>")[0]
+
+    def test_what_is_said_is_on_the_page(self):
+        """Every note of the JSON is a doubt of the page; where nothing is said it says that."""
+        self.write("tight.toml", NOISY.replace('unit = "ohm", initial = 1', 'unit = "ohm", initial = 1, max = 1.5'))   # it has 2
+        notes = self.algest_json("replay", "tight.toml", "coil.csv")["notes"]
+        self.assertTrue(any("beyond its min or max" in n for n in notes), notes)
+        page, said = self.page("replay", "tight.toml", "coil.csv")
+        self.assertEqual([html.unescape(d) for d in re.findall(r"<li>(.*)</li>", self.doubts(page))], notes)
+        page, _ = self.page("replay", "noisy.toml", "coil.csv")
+        self.assertIn("None was noted.", self.doubts(page))
+        self.write("idle.csv", csv([(k / 1000, 0.0, 0.0) for k in range(200)]))
+        page, _ = self.page("replay", "noisy.toml", "idle.csv")
+        self.assertIn("algest design noisy.toml idle.csv", self.doubts(page))
 
     def test_simulate(self):
         self.write("hidden.toml", HIDDEN)

@@ -84,7 +84,7 @@ class Servo(unittest.TestCase):
     def test_one_of_them_has_to_be_known(self):
         result = subprocess.run([ALGEST, "check", everything_unknown(self.folder)], capture_output=True, text=True)
         self.assertEqual(result.returncode, 1)
-        self.assertIn("the 6 parameters R, kt, J, mgl, Fc, mu enter only through kt, R*J/kt, R*mgl/kt, R*Fc/kt, R*mu/kt; declare 1 of them under [constants]", result.stderr)
+        self.assertIn("the 6 parameters R, kt, J, mgl, Fc, mu enter only through kt, R*J/kt, R*mgl/kt, R*Fc/kt, R*mu/kt; declare one of R, J, mgl, Fc, mu under [constants]", result.stderr)
 
     def test_a_load_that_is_only_ever_lifted(self):
         recording = self.folder / "run.csv"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Units of equations, spelled as the model spells what stands in them.
-#include "lab/equation_unit.hpp"
+#include "generator/equation_unit.hpp"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ k = {{ unit = "cm^3/MPa", initial = 1 }}
 [[equation]]
 ode = "{}"
 )toml", ode));
-    return algest::lab::equation_unit(scene.model, scene.model.equations[0]);
+    return algest::model::equation_unit(scene.model, scene.model.equations[0]);
 }
 
 }  // namespace

@@ -188,6 +188,19 @@ TEST_CASE("doubts: runs at an extreme are a clipped sensor, single peaks are not
     CHECK(doubts_of(peaks, 1.0).empty());
 }
 
+TEST_CASE("doubts: what turns round on a step of its sensor is not clipped, what stops there is") {
+    const auto still = [](std::size_t, double) { return 0.0; };
+    const auto rounded = [](double x) { return 0.1 * std::round(x / 0.1); };
+    // A wave of 2 +- 0.06 on steps of 0.1: it stands on three of them, hundreds of samples on each.
+    std::size_t row = 0;
+    const Workplace turning(still, 1e-3, "resolution = 0.1, initial = 0", [&](double) { return rounded(2 + 0.06 * std::sin(3e-3 * static_cast<double>(++row))); });
+    CHECK_FALSE(any_says(doubts_of(turning, 1.0), "clipped"));
+    // A wave of 2 +- 2 that moves by up to 0.4 a sample and cannot get above 3.
+    row = 0;
+    const Workplace stopped(still, 1e-3, "resolution = 0.1, initial = 0", [&](double) { return rounded(std::min(3.0, 2 + 2 * std::sin(0.2 * static_cast<double>(++row)))); });
+    CHECK(any_says(doubts_of(stopped, 1.0), "clipped"));
+}
+
 TEST_CASE("doubts: what was scanned, and what is hardly known") {
     const Workplace& w = noise_alone();
     Selection selection = selected(at(*w.nominal, 1));

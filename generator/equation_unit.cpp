@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lab/equation_unit.hpp"
+#include "generator/equation_unit.hpp"
 
 #include <cmath>
 #include <vector>
@@ -7,7 +7,7 @@
 #include "generator/dimension.hpp"
 #include "generator/tidy_unit.hpp"
 
-namespace algest::lab {
+namespace algest::model {
 
 namespace {
 
@@ -19,15 +19,15 @@ void add_terms(const Formula& f, std::vector<Formula>& out) {
     for (const Formula& a : f->arguments) add_terms(a, out);
 }
 
-std::string declared(const model::Model& model, const std::string& name) {
-    if (const model::Signal* s = model.signal(name)) return s->unit;
-    if (const model::Constant* c = model.constant(name)) return c->unit;
-    if (const model::Parameter* p = model.parameter(name)) return p->unit;
+std::string declared(const Model& model, const std::string& name) {
+    if (const Signal* s = model.signal(name)) return s->unit;
+    if (const Constant* c = model.constant(name)) return c->unit;
+    if (const Parameter* p = model.parameter(name)) return p->unit;
     return "";
 }
 
 /// The units of the factors of a product; empty where one has none, or the term is no product of names, numbers and derivatives.
-std::string of_term(const model::Model& model, const Formula& f) {
+std::string of_term(const Model& model, const Formula& f) {
     if (f->kind == Kind::number) return "1";
     if (f->kind == Kind::name) return declared(model, f->name);
     if (formula::is_derivative(f)) {
@@ -43,8 +43,8 @@ std::string of_term(const model::Model& model, const Formula& f) {
 
 }  // namespace
 
-std::string equation_unit(const model::Model& model, const model::Equation& equation) {
-    const units::Unit unit = model::unit_of_equation(model, equation);
+std::string equation_unit(const Model& model, const Equation& equation) {
+    const units::Unit unit = unit_of_equation(model, equation);
     std::vector<Formula> terms;
     add_terms(equation.sides.left, terms);
     add_terms(equation.sides.right, terms);
@@ -59,4 +59,4 @@ std::string equation_unit(const model::Model& model, const model::Equation& equa
     return best.empty() ? unit.text() : best;
 }
 
-}  // namespace algest::lab
+}  // namespace algest::model
