@@ -246,34 +246,36 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
             from.parameters = at.parameters;
         }
     }
-    settle_past(v, from);
-    v.fit = fit(v.model, v.bench, from);
-    if (settle_past(v, start_of(v, v, &Parts::fitted))) v.fit = fit(v.model, v.bench, from);
+    fit_either_past(v, from);
     if (!(v.fit.cost < hopeless * hopeless)) fit_from_elsewhere(v, from);
     start_at_fit(v);
     v.score = free_run_score(v, &Parts::validation);
 }
 
-/// What a delayed input was before the first sample nobody recorded: its first value, or nothing, whichever the run is nearer with. True: it changed.
-bool Workbench::settle_past(Variant& v, const FitStart& at) const {
-    const auto starts_driven = [](const Bench& b) {
-        return std::any_of(b.system.delays.begin(), b.system.delays.end(), [&](const DelayedSignal& d) {
+/// True where an input that is delayed does not begin with nothing.
+bool Workbench::past_matters(const Variant& v) const {
+    for (std::size_t r = 0; r < recordings(); ++r) {
+        const Bench& b = bench_of(v, r);
+        for (const DelayedSignal& d : b.system.delays) {
             const std::vector<double>& recorded = b.drive.values[static_cast<std::size_t>(d.signal)];
-            return !d.moves && !recorded.empty() && recorded[0] != 0;
-        });
-    };
-    bool asked = false;
-    for (std::size_t r = 0; r < recordings(); ++r) asked = asked || starts_driven(bench_of(v, r));
-    if (!asked) return false;
+            if (!d.moves && !recorded.empty() && recorded[0] != 0) return true;
+        }
+    }
+    return false;
+}
+
+/// What a delayed input was before the first sample nobody recorded: its first value, or nothing, whichever the fit is nearer with.
+void Workbench::fit_either_past(Variant& v, const FitStart& from) const {
+    v.fit = fit(v.model, v.bench, from);
+    if (!past_matters(v)) return;
     const auto turn = [&] {
         v.bench.drive.from_rest = !v.bench.drive.from_rest;
         for (Bench& further : v.further) further.drive.from_rest = !further.drive.from_rest;
     };
-    const double before = output_error(v.model, v.bench, at);
     turn();
-    if (output_error(v.model, v.bench, at) < before) return true;
-    turn();
-    return false;
+    Fit other = fit(v.model, v.bench, from);
+    if (other.cost < v.fit.cost) v.fit = std::move(other);
+    else turn();
 }
 
 /// A fit that explains next to nothing is caught in a false minimum, or the model is wrong from the start: values that were declared, and

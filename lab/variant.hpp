@@ -150,7 +150,8 @@ private:
     void find_idle_kinematics(const model::Model& model);
     void drop_idle_kinematics(model::Model& model) const;
     void fit_from_elsewhere(Variant& v, FitStart from) const;
-    bool settle_past(Variant& v, const FitStart& at) const;
+    bool past_matters(const Variant& v) const;
+    void fit_either_past(Variant& v, const FitStart& from) const;
     struct Trial {
         const Recording* recording;
         Parts parts;
