@@ -117,6 +117,7 @@ bool bind_edits(Binding& b, const model::Model& model, const std::vector<bool>& 
     for (const EffectEdit& edit : effect.edits) {
         bool found = edit.in == Reach::fed;   // what runs over may be lost
         for (const std::size_t k : reached(edit.in, own, model, measured)) {
+            if (edit.in == Reach::fed) b.beside.insert(k);
             if (!edit.add.empty()) {
                 touched.add(k, edit.add);
                 found = true;

@@ -42,8 +42,8 @@ std::optional<Remainder> law_instead(Workbench& bench, const Variant& nominal, c
 
 /// The sentence about a law that does the work of what was named.
 std::string instead(const Remainder& law, const Variant& best) {
-    const std::string what = best.amendments.size() > 1 ? "as much as " + std::to_string(best.amendments.size()) + " effects together" : "more than " + best.amendments[0].effect;
-    return fmt::format("one law, {} in '{}', explains {}: it is in no file of the library", law.term, law.equation, what);
+    const std::string of = fmt::format("one law, {} in '{}', explains ", law.term, law.equation);
+    return best.amendments.size() > 1 ? of + fmt::format("as much as {} effects together: they imitate it", best.amendments.size()) : of + "more than " + best.amendments[0].effect + ", which imitates it";
 }
 
 /// Searches by rows where the free run names nothing and drifts; the rows' answer counts where they see more than noise.

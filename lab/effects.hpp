@@ -2,6 +2,7 @@
 // The library of physical effects, as data: models/effects/*.toml.
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct Binding {
     std::vector<Substitution> substitutions = {};
     std::vector<BoundState> states = {};
     std::string freed = {};                         ///< the constant that is let go
+    std::set<std::size_t> beside = {};              ///< equations that an edit reaches which may do nothing there: rows of these do not judge the effect
     bool in_output = false;                         ///< it enters an equation that gives what a sensor shows
 };
 

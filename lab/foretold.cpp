@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace algest::lab {
 
@@ -14,12 +16,6 @@ constexpr double half = 0.5;            ///< of a squared error: less is no expl
 constexpr double told_apart = 1.1;      ///< ratio of squared training errors from which on a set is no rival, as of validation errors (1.05 squared)
 constexpr double surely = 1.75;         ///< standard errors over 16 blocks: t of 15 degrees, 1 in 20, for one set is asked once
 constexpr std::size_t refined_sets = 4; ///< chosen: each costs a fit to all training rows
-
-/// False where the test rows come before the training rows of a recording: no run goes from these to those.
-bool test_is_behind(const Workbench& bench) {
-    for (std::size_t r = 0; r < bench.recordings(); ++r) if (bench.parts(r).test.begin < bench.parts(r).train.end) return false;
-    return true;
-}
 
 /// Of a set's squared training error: what it would be if each effect had just halved it.
 double priced(const Variant& v, double squared_error) { return squared_error / std::pow(half, static_cast<double>(v.amendments.size())); }
@@ -56,7 +52,7 @@ std::vector<Ranked> best_few(Workbench& bench, const std::vector<Tried>& tried) 
 }  // namespace
 
 bool choose_what_foretells(Workbench& bench, const Variant& nominal, Selection& selection) {
-    if (!test_is_behind(bench) || bench.drifts(nominal)) return false;
+    if (bench.drifts(nominal)) return false;
     bench.begin_check();
     const std::vector<Ranked> few = best_few(bench, selection.tried);
     Variant before = nominal;
@@ -67,7 +63,10 @@ bool choose_what_foretells(Workbench& bench, const Variant& nominal, Selection& 
     const Score with = bench.free_run_score(best, &Parts::test);
     const double left = with.nrmse / without.nrmse;
     if (!(left * left < half) || !(significance(with, without) > surely)) return false;
-    for (std::size_t k = 1; k < few.size() && few[k].price < told_apart * few[0].price; ++k) {
+    for (std::size_t k = 1; k < few.size(); ++k) {
+        const std::set<std::string> own = identities(best), other = identities(few[k].tried.variant);
+        const bool holds_it = std::includes(other.begin(), other.end(), own.begin(), own.end());
+        if (holds_it || !(few[k].tried.variant.fit.cost < told_apart * best.fit.cost)) continue;
         for (const std::size_t row : few[k].tried.evidence) selection.evidence[row].rival = true;
         selection.rivals.push_back(few[k].tried.variant);
     }

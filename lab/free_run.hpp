@@ -52,7 +52,7 @@ struct RunOptions {
 /// Integrates from `initial` (one value per state entry) with a Dormand-Prince step of controlled size inside each period, inputs as
 /// they are held. A sgn() is a relay: a step never straddles its switch, and where the motion holds its argument at zero
 /// (sticking friction) the relay takes the value that keeps it there, so no width of smoothing enters. No step straddles a sample of a
-/// delayed input either; before its first sample such a signal has its first value, or none (Drive::from_rest).
+/// delayed input either; before its first sample such a signal has its first value, or 0 (Drive::from_rest).
 /// Cost: samples times at least six evaluations of the residual's tape per highest derivative and one; one or two where it is linear (linear_motion.hpp).
 FreeRun free_run(const OdeSystem& system, const std::vector<double>& parameters, const std::vector<double>& initial, const Drive& drive,
                  const RunOptions& options, const std::function<void(double)>& progress = {});

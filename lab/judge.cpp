@@ -103,7 +103,8 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
             }
             const double value = best.fit.parameters[static_cast<std::size_t>(p)];
             const double sd = best.fit.sd[static_cast<std::size_t>(p)];
-            if (!(sd < 0.3 * std::abs(value))) out.push_back(fmt::format("{} = {:.3g} {} is known to {:.2g} {} only", n.name, value, n.unit, sd, n.unit));
+            if (!std::isfinite(sd)) out.push_back(fmt::format("the data do not see {}, whose value is where the fit stopped", n.name));
+            else if (!(sd < 0.3 * std::abs(value))) out.push_back(fmt::format("{} = {:.3g} {} is known to {:.2g} {} only", n.name, value, n.unit, sd, n.unit));
         }
     }
     return out;

@@ -13,7 +13,7 @@ namespace algest::lab {
 namespace {
 
 constexpr double unseen_by_rows = 4;      ///< F statistic that chance reaches once in twenty
-constexpr double leaks_through = 0.03;    ///< of its strength in the right place, that an effect shows beside a noisy coupling: chosen
+constexpr double leaks_through = 0.03;    ///< of its strength in the right place, that an effect shows beside a noisy coupling: 0.0045 of gravity on the load, seen at the motor; chosen above
 constexpr double beyond_doubt = 40;       ///< twice a gain in log-likelihood: of two parameters more, chance has 14 in one case of a thousand. Where dry friction was
                                           ///< true, falling friction came to 10 at most; where falling friction was, and validation told nothing, to 82
 constexpr double the_same = 1e-3;         ///< of the validation error: fits stop at 1e-4 of their cost; two accounts that differ by less are one

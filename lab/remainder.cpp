@@ -2,6 +2,8 @@
 #include "lab/remainder.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "lab/effect.hpp"
@@ -72,12 +74,17 @@ std::optional<Remainder> plainer_law(Workbench& bench, const Variant& nominal, c
     std::vector<Candidate> by_rows = weighed_laws(bench, nominal, effects);
     std::vector<Candidate> by_run = by_rows;
     std::stable_sort(by_run.begin(), by_run.end(), [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
-    const double bar = named.amendments.size() > 1 ? as_near : 1 / as_near;
+    const bool alone = named.amendments.size() == 1;
     by_rows.resize(std::min(by_rows.size(), fitted_laws));
     by_rows.insert(by_rows.end(), by_run.begin(), by_run.begin() + static_cast<std::ptrdiff_t>(std::min(by_run.size(), fitted_laws)));
+    std::set<std::string> known;
     for (const Candidate& c : by_rows) {
-        const auto v = bench.used_up() ? std::nullopt : with_candidate(bench, nominal, c);
-        if (v && v->score.nrmse < bar * named.score.nrmse) return Remainder{place(v->amendments[0], v->whole), change(v->amendments[0])};
+        if (bench.used_up()) break;
+        if (!known.insert(identity(amendment(c.binding, nominal.model, c.scan))).second) continue;
+        const auto v = with_candidate(bench, nominal, c);
+        if (!v) continue;
+        const bool enough = alone ? worth_it(v->score, named.score, 1 / as_near) : v->score.nrmse < as_near * named.score.nrmse;
+        if (enough) return Remainder{place(v->amendments[0], v->whole), change(v->amendments[0])};
     }
     return std::nullopt;
 }

@@ -18,8 +18,8 @@ struct Remainder {
 /// Cost: a weak form for each law, equation and window length; a run for each law and equation.
 std::optional<Remainder> remainder(Workbench& bench, const Variant& v);
 
-/// A plain law with one parameter that explains the validation rows as well as the several effects of `named`, or better than its one effect: the machine
-/// has one more law, which they bend into its shape. Nullopt: there is none. Cost: as above, and six fits.
+/// A plain law with one parameter that explains the validation rows as well as the several effects of `named`, or surely better than its one effect: the
+/// machine has that law, and they imitate it. Nullopt: there is none. Cost: as above, and six fits.
 std::optional<Remainder> plainer_law(Workbench& bench, const Variant& nominal, const Variant& named);
 
 }  // namespace algest::lab

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t bindings_of_one = 2;        ///< of one effect among those that the weak form takes
 constexpr double least_share = 0.1;               ///< of the free run's error, for what the weak form does not take
-constexpr double nearby = 1.1;                  ///< times a scanned number: near enough for a power of it
-constexpr double flattest = 0.3;                ///< power below which a number is not told by the size of what it does,
+constexpr double nearby = 1.1;                  ///< times a scanned number: near enough for a power of it, far enough for a run's tolerance
+constexpr double flattest = 0.3;                ///< power below which a number is not told by the size of what it does, (1 of delays, -2 of a saturation),
 constexpr double steepest = 4;                  ///< nor above
 constexpr double least_of_its_own = 1e-4;         ///< of an effect's slope that no parameter of the model makes
 constexpr double least_driven = 0.3;              ///< of what inputs do without an effect, that they have to do beside it: a law of the position alone
@@ -137,6 +137,7 @@ private:
             double least = std::numeric_limits<double>::infinity();
             std::vector<double> parameters = start;
             for (const std::size_t e : binding.equations) {
+                if (binding.beside.count(e) > 0) continue;
                 const std::string& where = base_.whole.equations[e].name;
                 const auto& before = without(where, intervals);
                 const auto with = weak_form(*model, with_time_, equation_index(*model, where), intervals);
@@ -306,8 +307,9 @@ private:
         Diagnostics quiet;
         auto amendments = base_.amendments;
         amendments.push_back(a);
-        const auto v = bench_.prepare(amended(base_.text, base_.whole, a), std::move(amendments), quiet);
+        auto v = bench_.prepare(amended(base_.text, base_.whole, a), std::move(amendments), quiet);
         if (!v || !(left_.squaredNorm() > 0)) return;
+        carry_past(*v, base_);
         if (v->bench.options.stride != base_.bench.options.stride) return;   // it brings time to a run that nothing drove: other samples are kept
         FitStart at = bench_.start_of(*v, base_, &Parts::fitted);
         at.parameters = neutral_parameters(*v, a);

@@ -254,7 +254,7 @@ Selection select_effects(Workbench& bench, const Variant& nominal, const std::ve
         }
         for (std::size_t k = 1; k < order.size(); ++k) {
             const Variant& other = fitted[order[k]].variant;
-            if (indistinguishable(fitted[order[0]].variant, other) && precedence.fitted_rows_tell(other, fitted[order[0]].variant)) std::swap(order[0], order[k]);
+            if (indistinguishable(nearest, other) && precedence.fitted_rows_tell(other, fitted[order[0]].variant)) std::swap(order[0], order[k]);
         }
         std::vector<Tried> ordered;
         for (const std::size_t k : order) ordered.push_back(std::move(fitted[k]));

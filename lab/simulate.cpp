@@ -51,7 +51,7 @@ double known_size(const model::Signal& signal, const std::vector<double>& measur
 
 constexpr double of_noise = 3.0;   ///< standard deviations that a signal at zero hardly shows
 
-/// True when what is measured of the machine's states is zero at the first sample: no input has driven it yet.
+/// True when what is measured of the machine's states is zero at the first sample and at the next: no input has driven it yet.
 bool starts_at_rest(const model::Model& model, const Bench& bench) {
     const std::vector<double> noise = noise_by_signal(model, bench);
     bool seen = false;
@@ -59,7 +59,7 @@ bool starts_at_rest(const model::Model& model, const Bench& bench) {
         const std::size_t s = static_cast<std::size_t>(entry.signal);
         if (entry.order > 0 || bench.measured[s].empty()) continue;
         seen = true;
-        if (std::abs(bench.measured[s][0]) > of_noise * noise[s]) return false;
+        for (std::size_t row = 0; row < std::min<std::size_t>(2, bench.measured[s].size()); ++row) if (std::abs(bench.measured[s][row]) > of_noise * noise[s]) return false;
     }
     return seen;
 }
@@ -119,7 +119,7 @@ std::optional<Bench> bench(const model::Model& model, const Recording& recording
         out.options.farthest.push_back(bounded ? largest_excursion * out.options.scale.back() : std::numeric_limits<double>::max());
     }
     out.system = std::move(*system);
-    out.drive.from_rest = starts_at_rest(model, out);
+    out.drive.from_rest = !out.system.delays.empty() && starts_at_rest(model, out);
     return out;
 }
 

@@ -62,6 +62,14 @@ double smallest_part(const std::vector<Amendment>& amendments, const model::Mode
     return std::max(out, finest_part);
 }
 
+/// True where an input that is delayed does not begin with 0.
+bool past_matters(const Bench& bench) {
+    return std::any_of(bench.system.delays.begin(), bench.system.delays.end(), [&](const DelayedSignal& d) {
+        const std::vector<double>& recorded = bench.drive.values[static_cast<std::size_t>(d.signal)];
+        return !d.moves && !recorded.empty() && recorded[0] != 0;
+    });
+}
+
 int row_intervals(const Rows& rows) {
     int out = intervals_of_a_row;
     while (out > 8 && 2 * rows.size() < least_windows * static_cast<std::size_t>(out)) out /= 2;
@@ -252,30 +260,17 @@ void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, cons
     v.score = free_run_score(v, &Parts::validation);
 }
 
-/// True where an input that is delayed does not begin with nothing.
-bool Workbench::past_matters(const Variant& v) const {
-    for (std::size_t r = 0; r < recordings(); ++r) {
-        const Bench& b = bench_of(v, r);
-        for (const DelayedSignal& d : b.system.delays) {
-            const std::vector<double>& recorded = b.drive.values[static_cast<std::size_t>(d.signal)];
-            if (!d.moves && !recorded.empty() && recorded[0] != 0) return true;
-        }
-    }
-    return false;
-}
-
-/// What a delayed input was before the first sample nobody recorded: its first value, or nothing, whichever the fit is nearer with.
+/// What a delayed input was before the first sample nobody recorded: its first value, or 0, whichever the fit is nearer with, recording by recording.
 void Workbench::fit_either_past(Variant& v, const FitStart& from) const {
     v.fit = fit(v.model, v.bench, from);
-    if (!past_matters(v)) return;
-    const auto turn = [&] {
-        v.bench.drive.from_rest = !v.bench.drive.from_rest;
-        for (Bench& further : v.further) further.drive.from_rest = !further.drive.from_rest;
-    };
-    turn();
-    Fit other = fit(v.model, v.bench, from);
-    if (other.cost < v.fit.cost) v.fit = std::move(other);
-    else turn();
+    for (std::size_t r = 0; r < recordings(); ++r) {
+        Bench& bench = r == 0 ? v.bench : v.further[r - 1];
+        if (!past_matters(bench)) continue;
+        bench.drive.from_rest = !bench.drive.from_rest;
+        Fit other = fit(v.model, v.bench, from);
+        if (other.cost < v.fit.cost) v.fit = std::move(other);
+        else bench.drive.from_rest = !bench.drive.from_rest;
+    }
 }
 
 /// A fit that explains next to nothing is caught in a false minimum, or the model is wrong from the start: values that were declared, and
@@ -443,6 +438,11 @@ bool Workbench::drifts(const Variant& fitted, std::size_t recording) const {
 std::size_t equation_index(const model::Model& model, const std::string& name) {
     for (std::size_t e = 0; e < model.equations.size(); ++e) if (model.equations[e].name == name) return e;
     return 0;
+}
+
+void carry_past(Variant& v, const Variant& from) {
+    v.bench.drive.from_rest = from.bench.drive.from_rest;
+    for (std::size_t r = 0; r < v.further.size(); ++r) v.further[r].drive.from_rest = from.further[r].drive.from_rest;
 }
 
 std::vector<double> carried_initial(const Variant& v, const Variant& from, std::size_t recording) {

@@ -150,8 +150,8 @@ private:
     void find_idle_kinematics(const model::Model& model);
     void drop_idle_kinematics(model::Model& model) const;
     void fit_from_elsewhere(Variant& v, FitStart from) const;
-    bool past_matters(const Variant& v) const;
     void fit_either_past(Variant& v, const FitStart& from) const;
+
     struct Trial {
         const Recording* recording;
         Parts parts;
@@ -178,6 +178,9 @@ std::size_t equation_index(const model::Model& model, const std::string& name);
 
 /// Initial values of v's states in a recording as another variant's fit has them; its own for those that the other lacks.
 std::vector<double> carried_initial(const Variant& v, const Variant& from, std::size_t recording = 0);
+
+/// What delayed inputs were before the first sample, as another variant's fit has it.
+void carry_past(Variant& v, const Variant& from);
 
 /// Twice the gain in log-likelihood of a over b, rows counted as they are independent (positive: a is nearer to the measurement):
 /// the sum over outputs of rows times log(b^2/a^2).

@@ -63,10 +63,10 @@ TEST_CASE("delay: of a ramp between samples; the first value before the first sa
 }
 
 TEST_CASE("delay: a machine that is at rest at the first sample was not driven before it, one that moves was") {
-    for (const double start : {0.0, 0.4}) {
+    for (const auto& [first, second] : {std::pair(0.0, 0.0), std::pair(0.4, 0.4), std::pair(0.0, 0.4)}) {   // the last passes through zero
         Scene scene(lag("zoh", "delay(u, 0.0137)"));
-        const FreeRun run = scene.run(200, {{"u", [](double) { return 1.0; }}, {"x", [&](double t) { return t > 0 ? 0.5 : start; }}});
-        const double late = start > 0 ? 0.0 : 0.0137;
+        const FreeRun run = scene.run(200, {{"u", [](double) { return 1.0; }}, {"x", [first = first, second = second](double t) { return t > 1.5 * period ? 0.5 : t > 0.5 * period ? second : first; }}});
+        const double late = second > 0 ? 0.0 : 0.0137;
         for (std::size_t k = 0; k < 200; ++k) {
             const double since = std::max(period * static_cast<double>(k) - late, 0.0);
             REQUIRE(scene.of(run, "x")[k] == Approx(1.5 * (1 - std::exp(-2 * since))).margin(1e-7));   // the model's own initial value is 0
