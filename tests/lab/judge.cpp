@@ -215,7 +215,7 @@ TEST_CASE("doubts: what was scanned, and what is hardly known") {
     for (const Verdict v : {Verdict::named, Verdict::ambiguous}) {
         CHECK(with_sd(0.59, v) == std::vector<std::string>{"N = 4 was scanned, not fitted: it is a constant of the amended model"});   // a = 2
         CHECK(any_says(with_sd(0.61, v), "a = 2 1/s is known to 0.61 1/s only"));
-        CHECK(any_says(with_sd(std::numeric_limits<double>::infinity(), v), "a = 2 1/s is known to inf"));
+        CHECK(any_says(with_sd(std::numeric_limits<double>::infinity(), v), "the data do not see a, whose value is where the fit stopped"));
     }
     CHECK(with_sd(5, Verdict::unknown).empty());
 }
