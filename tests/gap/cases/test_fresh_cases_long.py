@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import draws
 
 FALSE_NAMES = 1 / 300   # of the draws that hide nothing
-RIGHT = 0.9             # where the gap is above three floors
+RIGHT = 0.9             # where the gap is above three floors; of a few draws one may always be missed, as of wrong and false names
 WRONG = 0.01            # of all draws
 AMBIGUOUS = 0.15        # where the excitation separates
 UNKNOWN = 0.9           # outside the library
@@ -42,7 +42,8 @@ class FreshCases(unittest.TestCase):
             self.assertGreaterEqual(matrix.share("outside", "right"), UNKNOWN)
         with self.subTest("right names"):
             right = sum(totals[group, judged] for group in ("clear", "rivals") for judged in ("right", "honest"))
-            self.assertGreaterEqual(right, RIGHT * (totals["clear"] + totals["rivals"]))
+            due = totals["clear"] + totals["rivals"]
+            self.assertLessEqual(due - right, max(1, (1 - RIGHT) * due))
 
 
 if __name__ == "__main__":
