@@ -221,12 +221,12 @@ Eigen::MatrixXd output_slopes(const model::Model& model, const Bench& bench, con
     return slopes;
 }
 
+double log_gain(double independent, double error, double other) { return error > 0 && other > 0 ? independent * 2 * std::log(other / error) : 0; }
+
 double log_gain(const Fit& a, const Fit& b) {
     if (a.squares.size() != b.squares.size()) return 0;
     double out = 0;
-    for (std::size_t o = 0; o < a.squares.size(); ++o) {
-        if (a.squares[o] > 0 && b.squares[o] > 0) out += std::min(a.independent[o], b.independent[o]) * std::log(b.squares[o] / a.squares[o]);
-    }
+    for (std::size_t o = 0; o < a.squares.size(); ++o) out += log_gain(std::min(a.independent[o], b.independent[o]), std::sqrt(a.squares[o]), std::sqrt(b.squares[o]));
     return out;
 }
 

@@ -50,6 +50,9 @@ struct Fit {
     std::vector<double> independent = {};   ///< rows that count as independent, the same
 };
 
+/// Twice the gain in log-likelihood of an error over another one on rows of which so many are independent; 0 where one of them is none.
+double log_gain(double independent, double error, double other);
+
 /// Twice the gain in log-likelihood of fit a over fit b on the rows that both were fitted to; 0 where they compare other outputs.
 double log_gain(const Fit& a, const Fit& b);
 

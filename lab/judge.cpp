@@ -77,16 +77,13 @@ std::vector<std::string> doubts(const Workbench& bench, const Variant& nominal, 
     if (verdict != Verdict::none || nominal.score.gap() > at_the_floor) {
         for (const std::string& e : unseen(nominal)) out.push_back(fmt::format("'{}' has a signal that is not measured: only the free run could look for what it lacks", e));
     }
-    const auto not_known = [](const Variant& v, const std::string& which) {
-        std::string unseen_parameters;
-        for (std::size_t p = 0; p < v.fit.sd.size(); ++p) if (!std::isfinite(v.fit.sd[p])) unseen_parameters += (unseen_parameters.empty() ? "" : ", ") + v.model.parameters[p].name;
-        return unseen_parameters.empty() ? std::string() : fmt::format("{}: the data do not see {}, whose value is where the fit stopped", which, unseen_parameters);
-    };
     if (bench.yardstick() == Yardstick::free_run && !nominal.fit.sd.empty() && !nominal.fit.converged && nominal.score.nrmse > half_of_it) {
         out.push_back(fmt::format("the fit of the model as it is did not settle, {:.0f} percent of the signals away: what is called its gap is where the fit stopped; give initial values that are nearer, with min and max, "
                                   "or the noise and constants of the model another look", 100 * nominal.score.nrmse));
     }
-    if (const std::string text = not_known(nominal, "the model as it is"); !text.empty()) out.push_back(text);
+    std::string unknown_parameters;
+    for (std::size_t p = 0; p < nominal.fit.sd.size(); ++p) if (!std::isfinite(nominal.fit.sd[p])) unknown_parameters += (unknown_parameters.empty() ? "" : ", ") + nominal.model.parameters[p].name;
+    if (!unknown_parameters.empty()) out.push_back(fmt::format("the model as it is: the data do not see {}, whose value is where the fit stopped", unknown_parameters));
     if (selection.cut_short) out.push_back("the search was stopped before every effect was tried, for its free runs take long: the recording is long, or the model stiff or unstable with what was fitted");
     if (bench.yardstick() == Yardstick::rows) {
         out.push_back(fmt::format("this machine does not forget a disturbance, so one long run adds up every small error: effects were decided by the residuals of the equations over short windows, of which {:.3g} percent are left (before: {:.3g} percent of the driving side)",

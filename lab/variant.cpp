@@ -461,8 +461,7 @@ std::vector<double> carried_initial(const Variant& v, const Variant& from, std::
 namespace {
 
 double gain_of(const Score& a, const Score& b, std::size_t o) {
-    if (!(a.error[o] > 0) || !(b.error[o] > 0)) return 0;
-    return std::min(a.independent[o], b.independent[o]) * 2 * std::log(b.error[o] / a.error[o]);
+    return log_gain(std::min(a.independent[o], b.independent[o]), a.error[o], b.error[o]);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ ode = "J*der(w) = K*i - b*w"
 TC = 0.01   # N.m, hidden
 
 
-def recording(friction, seed, samples=5000):
-    """Runge-Kutta with 20 steps a sample; R = 1, J = 2.5e-4, b = 2e-4; steps of voltage both ways every 0.12 s."""
+def recording(friction, seed, samples=5000, later=1.0):
+    """Runge-Kutta with 20 steps a sample; R = 1, J = 2.5e-4, b = 2e-4; steps of voltage both ways every 0.12 s. later: the friction's factor in the last 30 percent."""
     random.seed(seed)
     R, L, K, J, b = 1.0, 0.002, 0.05, 2.5e-4, 2e-4
     i = w = u = 0.0
@@ -45,6 +45,8 @@ def recording(friction, seed, samples=5000):
         return (u - R * i - K * w) / L, (K * i - b * w - friction * math.tanh(w / 0.02)) / J
 
     for k in range(samples):
+        if k == 7 * samples // 10:
+            friction *= later
         if k % 120 == 0:
             u = random.uniform(-8, 8)
         lines.append(f"{k * 1e-3:.3f},{u:.6f},{i + random.gauss(0, 0.005):.6f},{w + random.gauss(0, 0.1):.5f}")

@@ -40,6 +40,15 @@ class WhatIsSaid(unittest.TestCase):
             self.assertIn(f"run.csv: error: {option} is not within the recording, which goes from 0 s to 4.999 s", done.stderr)
         self.assertEqual(self.discover("--train", "0:4", "--test", "4:5").returncode, 0)
 
+    def test_a_name_that_misses_the_test_stretch(self):
+        """Friction that grows by 30 percent behind the training stretch: it was named there, and what it leaves of the test stretch, a quarter or so of the gap, is no noise."""
+        self.assertEqual([e["name"] for e in json.loads(self.discover().stdout)["effects"]], ["coulomb_friction"])
+        (self.folder / "run.csv").write_text(recording(TC, 7, later=1.3))
+        found = json.loads(self.discover().stdout)
+        self.assertEqual((found["verdict"], found["effects"]), ("unknown", []))
+        self.assertTrue(any("coulomb_friction explained the training stretch and misses the test stretch" in doubt for doubt in found["doubts"]), found["doubts"])
+        self.assertTrue(any("'w' is missed by" in doubt for doubt in found["doubts"]), found["doubts"])
+
     def test_a_fit_that_did_not_settle(self):
         """A current sensor that is connected the wrong way round, and parameters without limits: no positive ones follow it, and the fit runs away."""
         header, *rows = recording(0.0, 7, samples=2500).splitlines()

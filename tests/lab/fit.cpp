@@ -87,3 +87,13 @@ TEST_CASE("fit: rows that count as one are those of a first-order process") {
     CHECK(lab::rows_that_count_as_one(coloured.data(), coloured.size()) == Approx(9.0).epsilon(0.15));
     CHECK(lab::rows_that_count_as_one(independent.data(), independent.size()) == Approx(1.0).epsilon(0.05));
 }
+
+TEST_CASE("fit: outputs are compared in the order of the model, a sensor that shows another signal among them") {
+    Scene scene("name = \"m\"\n[sampling]\nperiod = 1e-2\n[signals]\nu = { unit = \"V\", hold = \"zoh\" }\ny = { unit = \"m\" }\nx = { unit = \"m\", initial = 0 }\nz = { unit = \"m\", initial = 0 }\n[parameters]\n"
+                "a = { unit = \"1/s\", initial = 1 }\n[[equation]]\node = \"der(x) = -a*x\"\n[[equation]]\node = \"der(z) = -a*z\"\n[[equation]]\node = \"y = abs(z)\"\n");
+    const auto one = [](double) { return 1.0; };
+    const auto recording = scene.recorded(200, {{"u", one}, {"y", one}, {"x", one}});
+    const auto bench = lab::bench(scene.model, recording, scene.diagnostics);
+    REQUIRE(bench);
+    CHECK(lab::scored_outputs(scene.model, *bench) == std::vector<int>{scene.model.signal_index("y"), scene.model.signal_index("x")});   // x is a state, y an output
+}
