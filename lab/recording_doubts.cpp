@@ -39,9 +39,9 @@ double clipped(const std::vector<double>& x) {
                 ++run;
                 continue;
             }
-            const bool into = run < k && std::abs(x[k - run] - x[k - run - 1]) > jump;
-            const bool out_of = k < x.size() && std::abs(x[k] - extreme) > jump;
-            if (run >= clipped_run && (into || out_of)) count += run;
+            const auto into = [&] { return run < k && std::abs(extreme - x[k - run - 1]) > jump; };
+            const auto out_of = [&] { return k < x.size() && std::abs(x[k] - extreme) > jump; };
+            if (run >= clipped_run && (into() || out_of())) count += run;
             run = 0;
         }
     }
