@@ -45,7 +45,7 @@ std::vector<KeySection> all() {
             {"noise", "the signal's", "", "standard deviation of the sensor; with it the estimator can tell its own uncertainty", "controller.md"},
             {"resolution", "the signal's", "", "step of the sensor", ""},
             {"column", "", "(NAME)", "the column of a recording that holds it", ""},
-            {"initial", "the signal's", "(its first sample)", "where a simulation starts; of a hidden state: its size too", ""},
+            {"initial", "the signal's", "(its first sample)", "where the machine starts: what `simulate` starts from, and what tells `discover` a sensor that is off from a load; of a hidden state: its size too", ""},
             {"scored", "", "true", "`false`: `simulate` and `discover` do not compare it", ""},
             {"min", "the signal's", "", "samples below are rejected; of a hidden state: its size", ""},
             {"max", "the signal's", "", "samples above are rejected; of a hidden state: its size", ""},

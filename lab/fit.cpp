@@ -287,6 +287,11 @@ Fit fit(const model::Model& model, const Bench& bench, const FitStart& start) {
     }
     const Eigen::VectorXd deviations = deviations_of(normal, digits_of_a_slope);
     for (std::size_t k = 0; k < variables.parameters.size(); ++k) out.sd[variables.parameters[k]] = deviations[static_cast<Eigen::Index>(k)] * variables.scale[k];
+    out.begin = start.rows.begin;
+    for (std::size_t e = 0; e < out.initial.size(); ++e) {   // the entries of the own run come first
+        const std::size_t k = variables.parameters.size() + e;
+        out.initial_sd.push_back(deviations[static_cast<Eigen::Index>(k)] * variables.scale[k]);
+    }
     out.runs = cost->runs;
     return out;
 }

@@ -48,6 +48,8 @@ struct Fit {
     std::vector<std::vector<double>> further_initial = {};   ///< by further run
     std::vector<double> squares = {};       ///< squared error by scored output of each run, in shares of its size
     std::vector<double> independent = {};   ///< rows that count as independent, the same
+    std::size_t begin = 0;                  ///< row of the fit's own run at which it starts
+    std::vector<double> initial_sd = {};    ///< by state entry of the fit's own run; as sd
 };
 
 /// Twice the gain in log-likelihood of an error over another one on rows of which so many are independent; 0 where one of them is none.

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lab/declared_start.hpp"
+
 namespace algest::lab {
 
 namespace {
@@ -17,6 +19,7 @@ constexpr double leaks_through = 0.03;    ///< of its strength in the right plac
 constexpr double beyond_doubt = 40;       ///< twice a gain in log-likelihood: of two parameters more, chance has 14 in one case of a thousand. Where dry friction was
                                           ///< true, falling friction came to 10 at most; where falling friction was, and validation told nothing, to 82
 constexpr double the_same = 1e-3;         ///< of the validation error: fits stop at 1e-4 of their cost; two accounts that differ by less are one
+constexpr double starts_agree = 14;       ///< squared distance from the declared start that an account may have which keeps to it: of two starts, chance has more in one case of a thousand
 constexpr double rows_are_sure = 9.2;     ///< by which another one is larger: a likelihood ratio of exp(9.2/2), 100 to 1
 
 /// The amendments of v that are not of `other`.
@@ -33,6 +36,18 @@ std::vector<const Amendment*> own(const Variant& v, const Variant& other) {
 bool same_elsewhere(const Variant& a, const Variant& b) {
     return a.amendments.back().effect == b.amendments.back().effect && a.amendments.back().equations != b.amendments.back().equations;
 }
+
+/// Twice the gain in log-likelihood that the declared start gives a over b. Of accounts that differ in a sensor only: what a sensor shows at the start is what they tell
+/// apart, and the free start of a fit forgets it. A start that no account keeps to was not meant.
+double start_gain(const Variant& a, const Variant& b) {
+    if (corrects_a_sensor(a) == corrects_a_sensor(b)) return 0;
+    const double of_a = away_from_declared_start(a);
+    const double of_b = away_from_declared_start(b);
+    return std::min(of_a, of_b) < starts_agree ? of_b - of_a : 0;
+}
+
+/// Twice the gain in log-likelihood of a over b by all that both were fitted to, and that a fit does not know of.
+double fitted_gain(const Variant& a, const Variant& b) { return log_gain(a.fit, b.fit) + start_gain(a, b); }
 
 bool rows_prefer(const Contender& a, const Contender& b) {
     const bool hardly_seen = b.strength < unseen_by_rows || b.strength < leaks_through * a.strength;
@@ -81,13 +96,13 @@ bool Precedence::before(const Contender& a, const Contender& b) const {
 
 bool Precedence::fitted_rows_tell(const Variant& a, const Variant& b) const {
     const bool no_freer = held_back(a) == held_back(b) || added_parameters(a) <= added_parameters(b);
-    return no_freer && a.amendments.size() == b.amendments.size() && log_gain(a.fit, b.fit) > beyond_doubt;
+    return no_freer && a.amendments.size() == b.amendments.size() && fitted_gain(a, b) > beyond_doubt;
 }
 
 Precedence::Standing Precedence::beside(const Contender& named, const Contender& other) const {
     const bool plainer = held_back(*named.variant) < held_back(*other.variant) || yields(*other.variant, *named.variant);
     if (plainer) {
-        const bool nearer = added_parameters(*other.variant) <= added_parameters(*named.variant) && log_gain(other.variant->fit, named.variant->fit) > rows_are_sure;
+        const bool nearer = added_parameters(*other.variant) <= added_parameters(*named.variant) && fitted_gain(*other.variant, *named.variant) > rows_are_sure;
         if (nearer && are_rivals(*named.variant, *other.variant)) return Standing::rival;
         const bool same = std::abs(other.variant->score.nrmse - named.variant->score.nrmse) < the_same * named.variant->score.nrmse;
         return same || are_rivals(*named.variant, *other.variant) ? Standing::as_well : Standing::nothing;

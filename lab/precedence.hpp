@@ -24,7 +24,7 @@ public:
     /// it; then, it has less to fit; then, its effect's rival says so in its file; then, the rows of its equation see it, those of the other one do not.
     bool before(const Contender& a, const Contender& b) const;
 
-    /// Where validation does not tell the two apart: true when the rows that both were fitted to speak for `a` beyond doubt, though it is the less plain account. Only of
+    /// Where validation does not tell the two apart: true when the rows that both were fitted to, with the declared start where one of them corrects a sensor, speak for `a` beyond doubt, though it is the less plain account. Only of
     /// effects that add to the model alike, or of one that bends it and has no more to fit: the others fit anything a little.
     bool fitted_rows_tell(const Variant& a, const Variant& b) const;
 

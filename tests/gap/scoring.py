@@ -6,6 +6,7 @@ import math
 VERDICTS = {   # from the best to the worst
     "right": "verdict, names and equations as in the answer",
     "honest": "ambiguous where the answer allows it; a gap without a name where only process noise is",
+    "equal": "named a term of the equations where a sensor's fault or a wrong constant is hidden that is the same for every sample",
     "cautious": "ambiguous, the truth among the alternatives, where the data would have told",
     "missed": "a gap, but no name for it",
     "denied": "something is hidden, and the answer is none",
@@ -62,6 +63,8 @@ def judge(found, answer, aliases):
         part = [choices for choices in wanted if choices & set(names)]
         if truth == "named" and 0 < len(part) < len(wanted) and names_match(names, part):
             return "partial"
+        if truth == "ambiguous" and len(names) == 1 and names[0] in answer.get("equal_terms", []):
+            return "equal"
         return "wrong"
     if verdict == "ambiguous":
         among = any(names_match(list(alternative), wanted) for alternative in found["alternatives"])

@@ -5,6 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <limits>
+
+#include "lab/declared_start.hpp"
 
 using namespace algest;
 using lab::Contender;
@@ -100,4 +103,51 @@ TEST_CASE("precedence: where validation tells nothing the fitted rows may, by th
     const lab::Variant likely = nearer("bias", 1, 20), unlikely = nearer("bias", 1, -20);
     CHECK(precedence.beside({&load, 1}, {&likely, 1}) == As::rival);
     CHECK(precedence.beside({&load, 1}, {&unlikely, 1}) == As::as_well);
+}
+
+namespace {
+
+/// One signal x, declared to start at 0.2 and shown there as 0.25 +- 0.01 (known to `sd`); `bias` in its effects says that it shows 0.05 too much.
+lab::Variant starting(lab::Variant v, double sd, double declared = 0.2) {
+    v.model.signals.emplace_back();
+    v.model.signals[0].name = "x";
+    v.model.signals[0].initial = exact::from_double(declared);
+    v.bench.measured = {{0.25}};
+    v.bench.system.states = {{0, 0}};
+    v.fit.initial = {0.25};
+    v.fit.initial_sd = {sd};
+    v.fit.squares = {1};
+    v.fit.independent = {1000};
+    if (v.amendments.back().effect == "bias") {
+        v.model.parameters.emplace_back();
+        v.model.parameters[0].name = "off";
+        v.fit.parameters = {0.05};
+        v.fit.sd = {0.75 * sd};
+        v.amendments.back().substitutions = {{0, "x", "-off + x", "", lab::Part::everywhere, 0, {}}};
+    }
+    return v;
+}
+
+}  // namespace
+
+TEST_CASE("precedence: the declared start tells a sensor that is off from a load, where one of the two keeps to it") {
+    const auto load = [](double sd, double declared = 0.2) { return starting(with({{"load", 0, 1}}), sd, declared); };
+    const auto bias = [](double sd, double declared = 0.2) { return starting(with({{"bias", 0, 1}}), sd, declared); };
+    CHECK(lab::away_from_declared_start(load(0.01)) == Approx(25));                  // (0.05 / 0.01)^2
+    CHECK(lab::away_from_declared_start(bias(0.01)) == Approx(0).margin(1e-9));
+    CHECK(lab::away_from_declared_start(bias(0.01, 0.1)) == Approx(64));             // 0.1^2 / (0.01^2 + 0.0075^2)
+    const lab::Variant sure = bias(0.005), truth = load(0.005), likely = bias(0.01), unlikely = load(0.01);
+    CHECK(precedence.fitted_rows_tell(sure, truth));                                 // by 100
+    CHECK_FALSE(precedence.fitted_rows_tell(likely, unlikely));                      // by 25
+    CHECK(precedence.beside({&unlikely, 1}, {&likely, 1}) == As::rival);
+    const lab::Variant at_the_sample = load(0.005, 0.25), off = bias(0.005, 0.25);
+    CHECK(precedence.fitted_rows_tell(at_the_sample, off));                          // the load keeps to it: 0 against 64
+    // A start that neither keeps to was not meant; nor is one asked for that the fit does not see, or that lies before its first row.
+    const lab::Variant nowhere = load(0.005, 5), nowhere_too = bias(0.005, 5);
+    CHECK_FALSE(precedence.fitted_rows_tell(nowhere, nowhere_too));
+    CHECK(precedence.beside({&nowhere, 1}, {&nowhere_too, 1}) == As::as_well);
+    lab::Variant later = load(0.005);
+    later.fit.begin = 10;
+    CHECK(lab::away_from_declared_start(later) == 0);
+    CHECK(lab::away_from_declared_start(load(std::numeric_limits<double>::infinity())) == 0);
 }

@@ -135,6 +135,7 @@ class Matrix:
                 f"right where the gap is above {CLEAR_GAP:g} floors: {right} of {due} ({100 * right / max(due, 1):.1f} %), "
                 f"of them without a rival that the data allow {self.totals['clear', 'right']} of {self.totals['clear']}",
                 f"wrong names with verdict named: {self.wrong_names()} of {self.draws()} ({100 * self.wrong_names() / max(self.draws(), 1):.1f} %)",
+                f"named a term that no sample tells from the hidden sensor's fault or wrong constant: {sum(self.totals[group, 'equal'] for group in GROUPS)}",
                 f"ambiguous where the excitation separates: {self.totals['clear', 'ambiguous']} of {self.totals['clear']} ({100 * self.share('clear', 'ambiguous'):.1f} %)",
                 f"outside the library, unknown without a wrong name: {unknown} of {self.totals['outside']} ({100 * unknown / max(self.totals['outside'], 1):.1f} %)"]
         if self.seconds:

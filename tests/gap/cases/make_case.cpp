@@ -159,6 +159,7 @@ Case make_case(const std::string& family, const std::string& hidden, std::uint64
             const bool sensor = wrong_value || machine.effects[0].signal >= 0;
             if (sensor && found.same) {
                 made.ambiguous = true;
+                made.equal_terms = found.equal_terms;
                 const std::string own = wrong_value ? "parameter_error" : machine.effects[0].name;
                 if (!std::count(made.rivals.begin(), made.rivals.end(), own)) made.rivals.push_back(own);
                 made.note = "no sensor tells a wrong constant from a wrong sensor";

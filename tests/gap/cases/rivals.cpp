@@ -2,34 +2,36 @@
 #include "rivals.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace algest::gap {
 
 namespace {
 
 constexpr double indistinct = 0.25;  ///< what a rival may leave, in sensor noises, and still explain as well
+constexpr double promising = 0.5;    ///< of the gap: what it may leave to first order, to be fitted whole
+constexpr double chi_squared = 4;    ///< two standard errors: squares of a difference that all samples together cannot show
+constexpr int iterations = 6;
 
-}  // namespace
+/// One thing that might be free: an effect with its strength, or a quantity that is declared known.
+struct Candidate {
+    std::string name;
+    std::optional<Effect> effect;
+    std::size_t quantity = 0;
+};
 
-Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, const State& scale, Random& random) {
-    const Fitted fitted = refit(model, truth, 3);
-    if (!fitted.finite) return {};
+bool is_hidden(const Machine& machine, const Effect& effect, int index) {
+    if (machine.effects.empty()) return false;
+    const Effect& hidden = machine.effects.back();
+    if (effect.name != hidden.name || effect.signal != hidden.signal || effect.inputs != hidden.inputs) return false;
+    return hidden.slots.empty() || std::count(hidden.slots.begin(), hidden.slots.end(), index) > 0;
+}
+
+std::vector<Candidate> candidates(const Machine& machine, const Machine& model, const State& scale, Random& random) {
     const System& system = *machine.system;
-    std::vector<std::string> names;
-    std::vector<std::function<void(Machine&)>> nudges;
+    std::vector<Candidate> out;
     const auto add = [&](const std::optional<Effect>& rival, int index) {
-        if (!rival) return;
-        if (!machine.effects.empty()) {
-            const Effect& hidden = machine.effects.back();
-            if (rival->name == hidden.name && (rival->signal == hidden.signal && rival->inputs == hidden.inputs)) {
-                if (hidden.slots.empty() || std::count(hidden.slots.begin(), hidden.slots.end(), index)) return;
-            }
-        }
-        names.push_back(rival->name);
-        nudges.emplace_back([rival](Machine& m) {
-            m.effects.push_back(*rival);
-            m.effects.back().values[0] *= 1e-2;
-        });
+        if (rival && !is_hidden(machine, *rival, index)) out.push_back({rival->name, rival});
     };
     for (int slot = 0; slot < static_cast<int>(system.slots.size()); ++slot) {
         for (const std::string& name : term_effects()) {
@@ -43,16 +45,52 @@ Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, 
             add(structural_effect(name, system, index, scale, random), index);
     }
     for (std::size_t q = 0; q < system.quantities.size(); ++q) {
-        if (!system.quantities[q].known || model.p[q] != machine.p[q]) continue;
-        names.push_back("parameter_error");
-        nudges.emplace_back([q](Machine& m) { m.p[q] *= 1.001; });
+        if (system.quantities[q].known && model.p[q] == machine.p[q]) out.push_back({"parameter_error", std::nullopt, q});
     }
-    const std::vector<double> left = left_with(fitted, truth, nudges);
+    return out;
+}
+
+/// The model with a little of the candidate in it.
+void put(Machine& m, const Candidate& c) {
+    if (c.effect) {
+        m.effects.push_back(*c.effect);
+        m.effects.back().values[0] *= 1e-2;
+    } else {
+        m.p[c.quantity] *= 1.001;
+    }
+}
+
+/// Once the candidate is fitted with everything else, in sensor noises, worst output.
+double left_with_all_of(const Candidate& c, const Fitted& fitted, const Truth& truth) {
+    System system = *fitted.model.system;
+    Machine with = fitted.model;
+    with.system = &system;
+    put(with, c);
+    if (!c.effect) system.quantities[c.quantity].known = false;
+    const Fitted out = refit(with, truth, iterations);
+    return out.finite ? out.worst() : HUGE_VAL;  // out.model points to the system above
+}
+
+}  // namespace
+
+Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, const State& scale, Random& random) {
+    const Fitted fitted = refit(model, truth, 3);
+    if (!fitted.finite) return {};
+    const std::vector<Candidate> all = candidates(machine, model, scale, random);
+    std::vector<std::function<void(Machine&)>> nudges;
+    for (const Candidate& c : all) nudges.emplace_back([&c](Machine& m) { put(m, c); });
+    std::vector<double> left = left_with(fitted, truth, nudges);
+    const double samples = static_cast<double>(truth.outputs[0].size() * truth.outputs.size());
+    const auto note = [](std::vector<std::string>& names, const std::string& name) {
+        if (!std::count(names.begin(), names.end(), name)) names.push_back(name);
+    };
     Rivals out;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (!(left[i] < indistinct)) continue;
-        out.same = out.same || left[i] < 0.02 * fitted.worst();
-        if (!std::count(out.names.begin(), out.names.end(), names[i])) out.names.push_back(names[i]);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (left[i] < promising * fitted.worst()) left[i] = std::min(left[i], left_with_all_of(all[i], fitted, truth));
+        const bool equal = left[i] * left[i] * samples < chi_squared;
+        out.same = out.same || equal || left[i] < 0.02 * fitted.worst();
+        if (equal && all[i].effect && !all[i].effect->slots.empty()) note(out.equal_terms, all[i].name);
+        if (left[i] < indistinct) note(out.names, all[i].name);
     }
     return out;
 }

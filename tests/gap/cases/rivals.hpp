@@ -10,7 +10,8 @@ namespace algest::gap {
 
 struct Rivals {
     std::vector<std::string> names;  ///< things of a usual library, without the hidden one
-    bool same = false;               ///< one of them is the same to the last bit
+    bool same = false;               ///< for one of them no number of such recordings would tell
+    std::vector<std::string> equal_terms;  ///< those of them that are a term of an equation, and of which no sample shows that they are not hidden
 };
 
 /// `machine` is the true one, `model` the one without what is hidden.

@@ -176,6 +176,7 @@ ordered_json answer(const Case& c) {
             {"effects", effects},
             {"accepted_names", accepted},
             {"may_stay_ambiguous", c.rivals},
+            {"equal_terms", c.equal_terms},
             {"true_model_parameters", parameters},
             {"noise_floor_nrmse", floor},
             {"nominal_nrmse_with_true_parameters", nominal},
