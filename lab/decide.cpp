@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "lab/foretold.hpp"
 #include "lab/judge.hpp"
 #include "lab/noise.hpp"
@@ -13,6 +15,7 @@ namespace algest::lab {
 namespace {
 
 constexpr double rows_that_see = 2.0;   ///< residual of the nominal model over noise, from which on rows may overrule a long run
+constexpr double told_from_zero = 3.0;    ///< standard deviations of a strength, below which it may be none: chance reaches them once in 370. The least of 280 right names is 28
 constexpr double nothing_is_left = 1.01;   ///< gap below which no law can hold 3 percent of the squared error
 
 /// Fits the nominal model and looks for what it lacks, by the yardstick of the bench.
@@ -62,19 +65,36 @@ void ask_rows(Workbench& bench, Variant& nominal, const std::vector<double>& dec
     nominal = std::move(by_rows);
 }
 
-/// Takes a name, or `none`, back where a plain law is left, or does it alone.
-void hold_against_laws(Workbench& bench, const Variant& nominal, Decision& out) {
+/// The first effect of which the fit tells no strength from zero; nullptr: none. Only of what is nothing at zero, and is fitted.
+const Amendment* may_be_nothing(const Variant& best) {
+    for (const Amendment& a : best.amendments) {
+        bool may_be_zero = !a.names.empty();
+        for (const NewName& n : a.names) {
+            const int p = best.model.parameter_index(n.name);
+            if (p < 0 || n.let_go || !n.neutral.empty()) may_be_zero = false;
+            else may_be_zero = may_be_zero && !(std::abs(best.fit.parameters[static_cast<std::size_t>(p)]) > told_from_zero * best.fit.sd[static_cast<std::size_t>(p)]);
+        }
+        if (may_be_zero) return &a;
+    }
+    return nullptr;
+}
+
+/// Takes a name back where its strength may be zero; a name, or `none`, where a plain law is left, or does it alone.
+void hold_against_less(Workbench& bench, const Variant& nominal, Decision& out) {
     const Variant& best = out.selection.best;
     if (names_something(out.verdict)) {
-        if (const auto law = law_instead(bench, nominal, best)) {
-            out.laws.push_back(instead(*law, best));
+        if (const Amendment* a = may_be_nothing(best)) {
+            const std::size_t p = static_cast<std::size_t>(best.model.parameter_index(a->names[0].name));
+            out.against.push_back(fmt::format("{} makes the error smaller, but {} = {:.3g} {} is known to {:.2g} only: it may be nothing", a->effect, a->names[0].name, best.fit.parameters[p], a->names[0].unit, best.fit.sd[p]));
+        } else if (const auto law = law_instead(bench, nominal, best)) {
+            out.against.push_back(instead(*law, best));
         } else if (const auto rest = left_beside(bench, nominal, best)) {
-            out.laws.push_back(fmt::format("{} takes most of the gap, but what is left in '{}' still follows {}: the law that is missing is another one", best.amendments.back().effect, rest->equation, rest->term));
+            out.against.push_back(fmt::format("{} takes most of the gap, but what is left in '{}' still follows {}: the law that is missing is another one", best.amendments.back().effect, rest->equation, rest->term));
         }
     } else if (out.verdict == Verdict::none) {
-        if (const auto rest = left_beside(bench, nominal, nominal)) out.laws.push_back(fmt::format("the model is near the noise, but what is left in '{}' still follows {}", rest->equation, rest->term));
+        if (const auto rest = left_beside(bench, nominal, nominal)) out.against.push_back(fmt::format("the model is near the noise, but what is left in '{}' still follows {}", rest->equation, rest->term));
     }
-    if (!out.laws.empty()) out.verdict = Verdict::unknown;
+    if (!out.against.empty()) out.verdict = Verdict::unknown;
 }
 
 }  // namespace
@@ -91,7 +111,7 @@ Decision decide(Workbench& bench, Variant& nominal, const std::vector<double>& d
             out.verdict = out.selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
         }
     }
-    hold_against_laws(bench, nominal, out);
+    hold_against_less(bench, nominal, out);
     return out;
 }
 

@@ -229,7 +229,7 @@ std::optional<Discovery> discover(const std::string& model_text, const std::stri
     const auto all_doubts = [&] {
         std::vector<std::string> all = doubts(bench, *nominal, selection, out.verdict);
         for (const std::string& doubt : untried(bench)) all.push_back(doubt);
-        all.insert(all.end(), decision.laws.begin(), decision.laws.end());
+        all.insert(all.end(), decision.against.begin(), decision.against.end());
         return all;
     };
     out.doubts = all_doubts();

@@ -34,9 +34,9 @@ struct Effort {
 };
 
 /// Half the width over which a sgn() of several signals rises, in typical sizes of its argument: what the ripple of a phase current blurs,
-/// and what an ideal switch comes near to, at three times the cost.
+/// and what an ideal switch comes near to, at three times the cost each.
 constexpr double blurred_layer = 2e-2;
-constexpr double thin_layer = 5e-3;
+constexpr double thin_layers[] = {5e-3, 1e-3};
 
 struct RunOptions {
     double tolerance = 1e-8;                      ///< local, relative to the scale of each state

@@ -97,14 +97,19 @@ Variant sharpened(Workbench& bench, Variant best, const Variant& nominal, const 
     return best;
 }
 
-/// With thin layers, where those explain more: how sharply the machine switches is not in any model.
+/// With thin layers, as long as those explain more: how sharply the machine switches is not in any model.
 Variant sharply_switched(const Workbench& bench, Variant best) {
     if (best.bench.system.layers.empty() || bench.yardstick() != Yardstick::free_run || best.score.gap() <= at_the_floor) return best;
-    Variant v = best;
-    v.bench.options.layer_width = thin_layer;
-    for (Bench& further : v.further) further.options.layer_width = thin_layer;
-    bench.fit_and_score(v, best.fit.parameters, best.fit.initial);
-    return v.score.nrmse < best.score.nrmse ? v : best;
+    for (const double width : thin_layers) {
+        Variant v = best;
+        v.bench.options.layer_width = width;
+        for (Bench& further : v.further) further.options.layer_width = width;
+        bench.fit_and_score(v, best.fit.parameters, best.fit.initial);
+        if (!(v.score.nrmse < best.score.nrmse)) return best;
+        best = std::move(v);
+        if (best.score.gap() <= at_the_floor) return best;
+    }
+    return best;
 }
 
 /// Without every effect whose absence is not noticed.

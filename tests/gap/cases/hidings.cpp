@@ -40,10 +40,7 @@ std::vector<std::string> hidings(const std::string& family, bool structural) {
             }
         }
         for (std::size_t q = 0; q < plain.quantities.size(); ++q) {
-            // Only what scales the machine: a number of poles or a gain of the controller is never wrong.
-            const std::string& name = plain.quantities[q].name;
-            if (plain.quantities[q].known && name != "pp" && name != "Kp" && name != "Kd")
-                out.push_back("parameter_error@" + std::to_string(q));
+            if (plain.quantities[q].may_be_declared_wrong()) out.push_back("parameter_error@" + std::to_string(q));
         }
         return out;
     }

@@ -150,7 +150,7 @@ Case make_case(const std::string& family, const std::string& hidden, std::uint64
         const auto q = static_cast<std::size_t>(std::stoi(parts(hidden, '@').at(1)));
         made.believed[q] = model.p[q] = misbelieve(model, truth, q, visibility(random), random);
     }
-    const Fitted nominal = refit(model, truth, 0), refitted = refit(model, truth, 3);
+    const Fitted nominal = refit(model, truth, 0), refitted = refit(model, truth, to_the_end);
     if (!nothing && !one_speed) {
         if (std::hypot(1.0, refitted.worst()) < 1.4) throw std::runtime_error("the effect cannot be made visible");
         if (wanted.size() < 2) {

@@ -28,6 +28,8 @@ struct Fitted {
     double worst() const;
 };
 
+constexpr int to_the_end = 12;  ///< iterations: it ends where a step makes nothing smaller, mostly after four
+
 /// Fits the unknown quantities and the strengths of the model's effects.
 Fitted refit(Machine model, const Truth& truth, int iterations);
 

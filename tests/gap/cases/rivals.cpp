@@ -11,7 +11,6 @@ namespace {
 constexpr double indistinct = 0.25;  ///< what a rival may leave, in sensor noises, and still explain as well
 constexpr double promising = 0.5;    ///< of the gap: what it may leave to first order, to be fitted whole
 constexpr double chi_squared = 4;    ///< two standard errors: squares of a difference that all samples together cannot show
-constexpr int iterations = 6;
 
 /// One thing that might be free: an effect with its strength, or a quantity that is declared known.
 struct Candidate {
@@ -45,7 +44,7 @@ std::vector<Candidate> candidates(const Machine& machine, const Machine& model, 
             add(structural_effect(name, system, index, scale, random), index);
     }
     for (std::size_t q = 0; q < system.quantities.size(); ++q) {
-        if (system.quantities[q].known && model.p[q] == machine.p[q]) out.push_back({"parameter_error", std::nullopt, q});
+        if (system.quantities[q].may_be_declared_wrong() && model.p[q] == machine.p[q]) out.push_back({"parameter_error", std::nullopt, q});
     }
     return out;
 }
@@ -67,14 +66,14 @@ double left_with_all_of(const Candidate& c, const Fitted& fitted, const Truth& t
     with.system = &system;
     put(with, c);
     if (!c.effect) system.quantities[c.quantity].known = false;
-    const Fitted out = refit(with, truth, iterations);
+    const Fitted out = refit(with, truth, to_the_end);
     return out.finite ? out.worst() : HUGE_VAL;  // out.model points to the system above
 }
 
 }  // namespace
 
 Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, const State& scale, Random& random) {
-    const Fitted fitted = refit(model, truth, 3);
+    const Fitted fitted = refit(model, truth, to_the_end);
     if (!fitted.finite) return {};
     const std::vector<Candidate> all = candidates(machine, model, scale, random);
     std::vector<std::function<void(Machine&)>> nudges;
@@ -88,7 +87,7 @@ Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, 
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (left[i] < promising * fitted.worst()) left[i] = std::min(left[i], left_with_all_of(all[i], fitted, truth));
         const bool equal = left[i] * left[i] * samples < chi_squared;
-        out.same = out.same || equal || left[i] < 0.02 * fitted.worst();
+        out.same = out.same || equal;
         if (equal && all[i].effect && !all[i].effect->slots.empty()) note(out.equal_terms, all[i].name);
         if (left[i] < indistinct) note(out.names, all[i].name);
     }

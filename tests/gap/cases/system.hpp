@@ -19,6 +19,8 @@ struct Quantity {
     std::string name, unit;
     double value;
     bool known;
+    /// Only what scales the machine: a number of poles or a gain of the controller is never wrong.
+    bool may_be_declared_wrong() const { return known && name != "pp" && name != "Kp" && name != "Kd"; }
 };
 
 /// A column of the recording. `state` or `input` says which one it shows.
