@@ -193,6 +193,8 @@ std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, con
     bench.fit_and_score(*v, carried_over(*v, base), carried_initial(*v, base));
     // What bends a model is further from its start than a term is.
     if (!v->fit.converged && v->score.nrmse < still_falling * base.score.nrmse) bench.fit_and_score(*v, std::vector<double>(v->fit.parameters), std::vector<double>(v->fit.initial));
+    // Rows that see so much of it do not err: the run has gone astray.
+    if (c.strength > rows_of_no_chance && !(v->score.nrmse < base.score.nrmse)) bench.fit_growing(*v);
     return v;
 }
 

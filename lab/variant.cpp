@@ -294,6 +294,41 @@ void Workbench::fit_from_elsewhere(Variant& v, FitStart from) const {
     if (other.cost < v.fit.cost) v.fit = std::move(other);
 }
 
+void Workbench::fit_growing(Variant& v) const {
+    if (yardstick_ == Yardstick::rows) return;
+    FitStart from = start_of(v, v, &Parts::fitted);
+    from.most_iterations = search_iterations;
+    from.tolerance = search_accuracy;
+    from.initial = v.bench.initial;
+    for (std::size_t r = 0; r < from.further.size(); ++r) from.further[r].initial = v.further[r].initial;
+    const auto over = [&](std::size_t part) {
+        FitStart out = from;
+        out.rows.end = out.rows.begin + out.rows.size() / part;
+        for (FurtherRun& run : out.further) run.rows.end = run.rows.begin + run.rows.size() / part;
+        return out;
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (const int intervals : weak_intervals(parts().fitted)) {
+        FitStart at = over(8);
+        at.parameters = weak_estimate(v.model, stretches(v, &Parts::fitted), intervals, v.fit.parameters).parameters;
+        const double error = output_error(v.model, v.bench, at);
+        if (!(error < least)) continue;
+        least = error;
+        from.parameters = at.parameters;
+    }
+    Fit other;
+    for (const std::size_t part : {8, 4, 2, 1}) {
+        other = fit(v.model, v.bench, over(part));
+        from.parameters = other.parameters;
+        from.initial = other.initial;
+        for (std::size_t r = 0; r < from.further.size(); ++r) from.further[r].initial = other.further_initial[r];
+    }
+    if (!(other.cost < v.fit.cost)) return;
+    v.fit = std::move(other);
+    start_at_fit(v);
+    v.score = free_run_score(v, &Parts::validation);
+}
+
 FitStart Workbench::start_of(const Variant& v, const Variant& from, Rows Parts::*part) const {
     FitStart out{from.fit.parameters, {}, carried_initial(v, from), parts().*part};
     for (std::size_t r = 1; r < recordings(); ++r) out.further.push_back({&v.further[r - 1], carried_initial(v, from, r), parts(r).*part});
