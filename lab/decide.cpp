@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lab/foretold.hpp"
@@ -65,16 +66,15 @@ void ask_rows(Workbench& bench, Variant& nominal, const std::vector<double>& dec
     nominal = std::move(by_rows);
 }
 
-/// The first effect of which the fit tells no strength from zero; nullptr: none. Only of what is nothing at zero, and is fitted.
+/// The first effect of which the fit tells no strength from zero; nullptr: none. Only of terms without a scan: what bends the model, or acts beyond a place, may be
+/// anything that is large enough, and a deviation says nothing of it.
 const Amendment* may_be_nothing(const Variant& best) {
+    const auto told = [&](const NewName& n) {
+        const int p = best.model.parameter_index(n.name);
+        return p < 0 || n.scanned || std::abs(best.fit.parameters[static_cast<std::size_t>(p)]) > told_from_zero * best.fit.sd[static_cast<std::size_t>(p)];
+    };
     for (const Amendment& a : best.amendments) {
-        bool may_be_zero = !a.names.empty();
-        for (const NewName& n : a.names) {
-            const int p = best.model.parameter_index(n.name);
-            if (p < 0 || n.let_go || !n.neutral.empty()) may_be_zero = false;
-            else may_be_zero = may_be_zero && !(std::abs(best.fit.parameters[static_cast<std::size_t>(p)]) > told_from_zero * best.fit.sd[static_cast<std::size_t>(p)]);
-        }
-        if (may_be_zero) return &a;
+        if (!a.names.empty() && a.substitutions.empty() && a.states.empty() && a.freed.empty() && std::none_of(a.names.begin(), a.names.end(), told)) return &a;
     }
     return nullptr;
 }
@@ -84,8 +84,9 @@ void hold_against_less(Workbench& bench, const Variant& nominal, Decision& out) 
     const Variant& best = out.selection.best;
     if (names_something(out.verdict)) {
         if (const Amendment* a = may_be_nothing(best)) {
-            const std::size_t p = static_cast<std::size_t>(best.model.parameter_index(a->names[0].name));
-            out.against.push_back(fmt::format("{} makes the error smaller, but {} = {:.3g} {} is known to {:.2g} only: it may be nothing", a->effect, a->names[0].name, best.fit.parameters[p], a->names[0].unit, best.fit.sd[p]));
+            const NewName& strength = a->names[0];
+            const std::size_t p = static_cast<std::size_t>(best.model.parameter_index(strength.name));
+            out.against.push_back(fmt::format("{} makes the error smaller, but {} = {:.3g} {} is known to {:.2g} only: it may be nothing", a->effect, strength.name, best.fit.parameters[p], strength.unit, best.fit.sd[p]));
         } else if (const auto law = law_instead(bench, nominal, best)) {
             out.against.push_back(instead(*law, best));
         } else if (const auto rest = left_beside(bench, nominal, best)) {

@@ -194,7 +194,8 @@ std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, con
     // What bends a model is further from its start than a term is.
     if (!v->fit.converged && v->score.nrmse < still_falling * base.score.nrmse) bench.fit_and_score(*v, std::vector<double>(v->fit.parameters), std::vector<double>(v->fit.initial));
     // Rows that see so much of it do not err: the run has gone astray.
-    if (c.strength > rows_of_no_chance && !(v->score.nrmse < base.score.nrmse)) bench.fit_growing(*v);
+    const bool stuck = !v->fit.converged && v->score.gap() > at_the_floor && !guesses_noise(v->model, v->bench);
+    if (c.strength > rows_of_no_chance && (stuck || !(v->score.nrmse < base.score.nrmse))) bench.fit_growing(*v);
     return v;
 }
 

@@ -32,6 +32,7 @@ constexpr double lasting = 0.3;                 ///< share of a disturbed start 
 constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations, shorter where they would be too few
 constexpr double share_of_white = 0.7;          ///< of the rows, that count as independent ones: autocorrelation of noise alone
 constexpr std::size_t least_windows = 100;      ///< half overlapping, that score an equation
+constexpr std::size_t first_of_the_rows = 8;   ///< part of them that a growing fit begins with: chosen
 
 void names_in(const formula::Formula& f, std::set<std::string>& out) {
     if (f->kind == formula::Kind::name) out.insert(f->name);
@@ -309,7 +310,7 @@ void Workbench::fit_growing(Variant& v) const {
     };
     double least = std::numeric_limits<double>::infinity();
     for (const int intervals : weak_intervals(parts().fitted)) {
-        FitStart at = over(8);
+        FitStart at = over(first_of_the_rows);
         at.parameters = weak_estimate(v.model, stretches(v, &Parts::fitted), intervals, v.fit.parameters).parameters;
         const double error = output_error(v.model, v.bench, at);
         if (!(error < least)) continue;
@@ -317,7 +318,7 @@ void Workbench::fit_growing(Variant& v) const {
         from.parameters = at.parameters;
     }
     Fit other;
-    for (const std::size_t part : {8, 4, 2, 1}) {
+    for (std::size_t part = first_of_the_rows; part > 0; part /= 2) {
         other = fit(v.model, v.bench, over(part));
         from.parameters = other.parameters;
         from.initial = other.initial;

@@ -154,7 +154,8 @@ Case make_case(const std::string& family, const std::string& hidden, std::uint64
     if (!nothing && !one_speed) {
         if (std::hypot(1.0, refitted.worst()) < 1.4) throw std::runtime_error("the effect cannot be made visible");
         if (wanted.size() < 2) {
-            const Rivals found = rivals(machine, model, truth, scale, random);
+            const Effect* only = wrong_value ? nullptr : &machine.effects[0];
+            const Rivals found = rivals(machine, model, only, truth, scale, random);
             made.rivals = found.names;
             const bool sensor = wrong_value || machine.effects[0].signal >= 0;
             if (sensor && found.same) {
@@ -166,6 +167,15 @@ Case make_case(const std::string& family, const std::string& hidden, std::uint64
             }
             if (!wrong_value && !machine.effects[0].in_library && !found.names.empty())
                 throw std::runtime_error("a usual effect explains it as well");
+        } else {
+            // Beside the other one, each may have a rival of its own.
+            for (std::size_t e = 0; e < machine.effects.size(); ++e) {
+                Machine without = machine;
+                without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(e));
+                Random apart(family + "/" + hidden + "/rivals", seed);  // so that no rival changes the noise
+                for (const std::string& name : rivals(machine, without, &machine.effects[e], truth, scale, apart).names)
+                    if (!std::count(made.rivals.begin(), made.rivals.end(), name)) made.rivals.push_back(name);
+            }
         }
     }
     Machine oracle = machine;

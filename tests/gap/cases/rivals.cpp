@@ -19,18 +19,16 @@ struct Candidate {
     std::size_t quantity = 0;
 };
 
-bool is_hidden(const Machine& machine, const Effect& effect, int index) {
-    if (machine.effects.empty()) return false;
-    const Effect& hidden = machine.effects.back();
-    if (effect.name != hidden.name || effect.signal != hidden.signal || effect.inputs != hidden.inputs) return false;
-    return hidden.slots.empty() || std::count(hidden.slots.begin(), hidden.slots.end(), index) > 0;
+bool is_hidden(const Effect* hidden, const Effect& effect, int index) {
+    if (hidden == nullptr || effect.name != hidden->name || effect.signal != hidden->signal || effect.inputs != hidden->inputs) return false;
+    return hidden->slots.empty() || std::count(hidden->slots.begin(), hidden->slots.end(), index) > 0;
 }
 
-std::vector<Candidate> candidates(const Machine& machine, const Machine& model, const State& scale, Random& random) {
+std::vector<Candidate> candidates(const Machine& machine, const Machine& model, const Effect* hidden, const State& scale, Random& random) {
     const System& system = *machine.system;
     std::vector<Candidate> out;
     const auto add = [&](const std::optional<Effect>& rival, int index) {
-        if (rival && !is_hidden(machine, *rival, index)) out.push_back({rival->name, rival});
+        if (rival && !is_hidden(hidden, *rival, index)) out.push_back({rival->name, rival});
     };
     for (int slot = 0; slot < static_cast<int>(system.slots.size()); ++slot) {
         for (const std::string& name : term_effects()) {
@@ -72,10 +70,10 @@ double left_with_all_of(const Candidate& c, const Fitted& fitted, const Truth& t
 
 }  // namespace
 
-Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, const State& scale, Random& random) {
+Rivals rivals(const Machine& machine, const Machine& model, const Effect* hidden, const Truth& truth, const State& scale, Random& random) {
     const Fitted fitted = refit(model, truth, to_the_end);
     if (!fitted.finite) return {};
-    const std::vector<Candidate> all = candidates(machine, model, scale, random);
+    const std::vector<Candidate> all = candidates(machine, model, hidden, scale, random);
     std::vector<std::function<void(Machine&)>> nudges;
     for (const Candidate& c : all) nudges.emplace_back([&c](Machine& m) { put(m, c); });
     std::vector<double> left = left_with(fitted, truth, nudges);

@@ -14,7 +14,7 @@ struct Rivals {
     std::vector<std::string> equal_terms;  ///< those of them that are a term of an equation, and of which no sample shows that they are not hidden
 };
 
-/// `machine` is the true one, `model` the one without what is hidden.
-Rivals rivals(const Machine& machine, const Machine& model, const Truth& truth, const State& scale, Random& random);
+/// `machine` is the true one, `model` the one without what is hidden: `hidden`, or a wrong quantity where that is nullptr.
+Rivals rivals(const Machine& machine, const Machine& model, const Effect* hidden, const Truth& truth, const State& scale, Random& random);
 
 }  // namespace algest::gap
