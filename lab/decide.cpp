@@ -71,7 +71,8 @@ void ask_rows(Workbench& bench, Variant& nominal, const std::vector<double>& dec
 const Amendment* may_be_nothing(const Variant& best) {
     const auto told = [&](const NewName& n) {
         const int p = best.model.parameter_index(n.name);
-        return p < 0 || n.scanned || std::abs(best.fit.parameters[static_cast<std::size_t>(p)]) > told_from_zero * best.fit.sd[static_cast<std::size_t>(p)];
+        const double sd = p < 0 ? 0 : best.fit.sd[static_cast<std::size_t>(p)];
+        return p < 0 || n.scanned || !std::isfinite(sd) || std::abs(best.fit.parameters[static_cast<std::size_t>(p)]) > told_from_zero * sd;   // not seen: scaled with others, not small
     };
     for (const Amendment& a : best.amendments) {
         if (!a.names.empty() && a.substitutions.empty() && a.states.empty() && a.freed.empty() && std::none_of(a.names.begin(), a.names.end(), told)) return &a;

@@ -19,7 +19,7 @@ constexpr double leaks_through = 0.03;    ///< of its strength in the right plac
 constexpr double beyond_doubt = 40;       ///< twice a gain in log-likelihood: of two parameters more, chance has 14 in one case of a thousand. Where dry friction was
                                           ///< true, falling friction came to 10 at most; where falling friction was, and validation told nothing, to 82
 constexpr double the_same = 1e-3;         ///< of the validation error: fits stop at 1e-4 of their cost; two accounts that differ by less are one
-constexpr double starts_agree = 14;       ///< squared distance from the declared start that an account may have which keeps to it: of two starts, chance has more in one case of a thousand
+constexpr double starts_agree = 10.8;     ///< squared distance from each declared start that an account may have which keeps to it: chance has more in one case of a thousand
 constexpr double rows_are_sure = 9.2;     ///< by which another one is larger: a likelihood ratio of exp(9.2/2), 100 to 1
 
 /// The amendments of v that are not of `other`.
@@ -37,16 +37,25 @@ bool same_elsewhere(const Variant& a, const Variant& b) {
     return a.amendments.back().effect == b.amendments.back().effect && a.amendments.back().equations != b.amendments.back().equations;
 }
 
-/// Twice the gain in log-likelihood that the declared start gives a over b. Of accounts that differ in a sensor only: what a sensor shows at the start is what they tell
-/// apart, and the free start of a fit forgets it. A start that no account keeps to was not meant.
+/// Twice the gain in log-likelihood that the declared starts give a over b. Of accounts of which one corrects a sensor: what that shows at the start is what they tell
+/// apart, and the free start of a fit forgets it. Starts that neither account keeps to were not meant, nor those of which one of the two says nothing.
 double start_gain(const Variant& a, const Variant& b) {
     if (corrects_a_sensor(a) == corrects_a_sensor(b)) return 0;
-    const double of_a = away_from_declared_start(a);
-    const double of_b = away_from_declared_start(b);
-    return std::min(of_a, of_b) < starts_agree ? of_b - of_a : 0;
+    const auto of_b = away_from_declared_start(b);
+    double gain = 0;
+    bool a_keeps = true;
+    bool b_keeps = true;
+    for (const auto& [signal, away] : away_from_declared_start(a)) {
+        const auto other = of_b.find(signal);
+        if (other == of_b.end()) continue;
+        gain += other->second - away;
+        a_keeps = a_keeps && away < starts_agree;
+        b_keeps = b_keeps && other->second < starts_agree;
+    }
+    return a_keeps || b_keeps ? gain : 0;
 }
 
-/// Twice the gain in log-likelihood of a over b by all that both were fitted to, and that a fit does not know of.
+/// Twice the gain in log-likelihood of a over b on the rows that both were fitted to, and by the starts that are declared.
 double fitted_gain(const Variant& a, const Variant& b) { return log_gain(a.fit, b.fit) + start_gain(a, b); }
 
 bool rows_prefer(const Contender& a, const Contender& b) {

@@ -107,7 +107,7 @@ TEST_CASE("precedence: where validation tells nothing the fitted rows may, by th
 
 namespace {
 
-/// One signal x, declared to start at 0.2 and shown there as 0.25 +- 0.01 (known to `sd`); `bias` in its effects says that it shows 0.05 too much.
+/// One signal x, declared to start at 0.2 and fitted as 0.25 +- `sd` there; `bias` in its effects says that it shows 0.05 too much.
 lab::Variant starting(lab::Variant v, double sd, double declared = 0.2) {
     v.model.signals.emplace_back();
     v.model.signals[0].name = "x";
@@ -133,21 +133,31 @@ lab::Variant starting(lab::Variant v, double sd, double declared = 0.2) {
 TEST_CASE("precedence: the declared start tells a sensor that is off from a load, where one of the two keeps to it") {
     const auto load = [](double sd, double declared = 0.2) { return starting(with({{"load", 0, 1}}), sd, declared); };
     const auto bias = [](double sd, double declared = 0.2) { return starting(with({{"bias", 0, 1}}), sd, declared); };
-    CHECK(lab::away_from_declared_start(load(0.01)) == Approx(25));                  // (0.05 / 0.01)^2
-    CHECK(lab::away_from_declared_start(bias(0.01)) == Approx(0).margin(1e-9));
-    CHECK(lab::away_from_declared_start(bias(0.01, 0.1)) == Approx(64));             // 0.1^2 / (0.01^2 + 0.0075^2)
+    CHECK(lab::away_from_declared_start(load(0.01)).at("x") == Approx(25));                  // (0.05 / 0.01)^2
+    CHECK(lab::away_from_declared_start(bias(0.01)).at("x") == Approx(0).margin(1e-9));
+    CHECK(lab::away_from_declared_start(bias(0.01, 0.1)).at("x") == Approx(std::pow(0.1 / 0.0175, 2)));   // 0.01 + 0.0075: they hang together
     const lab::Variant sure = bias(0.005), truth = load(0.005), likely = bias(0.01), unlikely = load(0.01);
     CHECK(precedence.fitted_rows_tell(sure, truth));                                 // by 100
     CHECK_FALSE(precedence.fitted_rows_tell(likely, unlikely));                      // by 25
     CHECK(precedence.beside({&unlikely, 1}, {&likely, 1}) == As::rival);
-    const lab::Variant at_the_sample = load(0.005, 0.25), off = bias(0.005, 0.25);
-    CHECK(precedence.fitted_rows_tell(at_the_sample, off));                          // the load keeps to it: 0 against 64
+    const lab::Variant at_the_sample = load(0.004, 0.25), off = bias(0.004, 0.25);
+    CHECK(precedence.fitted_rows_tell(at_the_sample, off));                          // the load keeps to it: 0 against 51
     // A start that neither keeps to was not meant; nor is one asked for that the fit does not see, or that lies before its first row.
     const lab::Variant nowhere = load(0.005, 5), nowhere_too = bias(0.005, 5);
-    CHECK_FALSE(precedence.fitted_rows_tell(nowhere, nowhere_too));
+    CHECK_FALSE(precedence.fitted_rows_tell(nowhere_too, nowhere));   // 294 thousand against 902
     CHECK(precedence.beside({&nowhere, 1}, {&nowhere_too, 1}) == As::as_well);
     lab::Variant later = load(0.005);
     later.fit.begin = 10;
-    CHECK(lab::away_from_declared_start(later) == 0);
-    CHECK(lab::away_from_declared_start(load(std::numeric_limits<double>::infinity())) == 0);
+    CHECK(lab::away_from_declared_start(later).empty());
+    CHECK(lab::away_from_declared_start(load(std::numeric_limits<double>::infinity())).empty());
+    lab::Variant unseen = bias(0.005);
+    unseen.fit.sd = {std::numeric_limits<double>::infinity()};
+    CHECK(lab::away_from_declared_start(unseen).empty());
+    CHECK_FALSE(precedence.fitted_rows_tell(unseen, truth));
+    lab::Variant lagging = bias(0.005);   // what a sensor shows now may hang on what moved before: nothing is said of the start
+    lagging.amendments.back().substitutions[0].by = "x + off*der(x)";
+    CHECK(lab::away_from_declared_start(lagging).empty());
+    lab::Variant of_an_input = bias(0.005);
+    of_an_input.amendments.back().substitutions[0].what = "u";
+    CHECK_FALSE(lab::corrects_a_sensor(of_an_input));
 }
