@@ -273,6 +273,10 @@ private:
 }  // namespace
 
 std::string amended(const std::string& text, const model::Model& model, const Amendment& a) {
+    // An amendment found beside another one may stand in an equation that only that one brings.
+    const auto is_missing = [&](std::size_t equation) { return equation >= model.equations.size(); };
+    if (std::any_of(a.equations.begin(), a.equations.end(), is_missing)) return "";
+    if (std::any_of(a.substitutions.begin(), a.substitutions.end(), [&](const Substitution& s) { return is_missing(s.equation); })) return "";
     Edits edits(text, model);
     for (std::size_t k = 0; k < a.equations.size(); ++k) if (!a.terms[k].empty()) edits.add_term(a.equations[k], a.terms[k]);
     for (const Substitution& s : a.substitutions) edits.substitute(s);
