@@ -59,7 +59,7 @@ std::string identity(const Amendment& amendment);
 
 /// The text of the model file with the amendment. A term goes to the end of the side that has no leading derivative, new names behind the
 /// last of their table, or into a table of their own at the end of the file, new equations behind the last one. Empty where the text leaves no
-/// place for it.
+/// place for it, or has not the equation that it stands in.
 std::string amended(const std::string& text, const model::Model& model, const Amendment& amendment);
 
 /// The text with several amendments in turn, each of a model that has the ones before. path: of the model, for messages. Empty where one of

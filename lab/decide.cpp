@@ -66,22 +66,8 @@ void ask_rows(Workbench& bench, Variant& nominal, const std::vector<double>& dec
     nominal = std::move(by_rows);
 }
 
-/// The first effect of which the fit tells no strength from zero; nullptr: none. Only of terms without a scan: what bends the model, or acts beyond a place, may be
-/// anything that is large enough, and a deviation says nothing of it.
-const Amendment* may_be_nothing(const Variant& best) {
-    const auto told = [&](const NewName& n) {
-        const int p = best.model.parameter_index(n.name);
-        const double sd = p < 0 ? 0 : best.fit.sd[static_cast<std::size_t>(p)];
-        return p < 0 || n.scanned || !std::isfinite(sd) || std::abs(best.fit.parameters[static_cast<std::size_t>(p)]) > told_from_zero * sd;   // not seen: scaled with others, not small
-    };
-    for (const Amendment& a : best.amendments) {
-        if (!a.names.empty() && a.substitutions.empty() && a.states.empty() && a.freed.empty() && std::none_of(a.names.begin(), a.names.end(), told)) return &a;
-    }
-    return nullptr;
-}
-
 /// Takes a name back where its strength may be zero; a name, or `none`, where a plain law is left, or does it alone.
-void hold_against_less(Workbench& bench, const Variant& nominal, Decision& out) {
+void take_back(Workbench& bench, const Variant& nominal, Decision& out) {
     const Variant& best = out.selection.best;
     if (names_something(out.verdict)) {
         if (const Amendment* a = may_be_nothing(best)) {
@@ -103,6 +89,18 @@ void hold_against_less(Workbench& bench, const Variant& nominal, Decision& out) 
 
 bool names_something(Verdict verdict) { return verdict == Verdict::named || verdict == Verdict::ambiguous; }
 
+const Amendment* may_be_nothing(const Variant& best) {
+    const auto told = [&](const NewName& n) {
+        const int p = best.model.parameter_index(n.name);
+        const double sd = p < 0 ? 0 : best.fit.sd[static_cast<std::size_t>(p)];
+        return p < 0 || n.scanned || !std::isfinite(sd) || std::abs(best.fit.parameters[static_cast<std::size_t>(p)]) > told_from_zero * sd;   // not seen: scaled with others, not small
+    };
+    for (const Amendment& a : best.amendments) {
+        if (!a.names.empty() && a.substitutions.empty() && a.states.empty() && a.freed.empty() && std::none_of(a.names.begin(), a.names.end(), told)) return &a;
+    }
+    return nullptr;
+}
+
 Decision decide(Workbench& bench, Variant& nominal, const std::vector<double>& declared, const std::vector<Effect>& effects, const StepReport& progress) {
     Decision out{search(bench, nominal, declared, effects, progress), Verdict::unknown, {}};
     out.verdict = judge(bench, nominal, out.selection);
@@ -113,7 +111,7 @@ Decision decide(Workbench& bench, Variant& nominal, const std::vector<double>& d
             out.verdict = out.selection.rivals.empty() ? Verdict::named : Verdict::ambiguous;
         }
     }
-    hold_against_less(bench, nominal, out);
+    take_back(bench, nominal, out);
     return out;
 }
 

@@ -12,17 +12,18 @@ namespace algest::lab {
 
 namespace {
 
-/// What an effect puts in place of a signal everywhere, and with nothing of its own that moves: the truth behind a sensor. Empty: the sensor shows it.
-std::string correction(const Variant& v, const std::string& signal) {
+/// What effects put in place of a signal everywhere, and with nothing of their own that moves: the truth behind a sensor. Empty: the sensor shows it.
+std::vector<std::string> corrections(const Variant& v, const std::string& signal) {
+    std::vector<std::string> out;
     for (const Amendment& a : v.amendments) {
         if (!a.states.empty()) continue;
-        for (const Substitution& s : a.substitutions) if (s.what == signal && s.part == Part::everywhere) return s.by;
+        const auto s = std::find_if(a.substitutions.begin(), a.substitutions.end(), [&](const Substitution& of) { return of.what == signal && of.part == Part::everywhere; });
+        if (s != a.substitutions.end()) out.push_back(s->by);   // the same text in every equation
     }
-    return "";
+    return out;
 }
 
-/// Of a signal that is measured and moves by an equation of its own, and of no more than it, parameters and constants: what calls a function, a derivative or a
-/// delay among them, is not known at one instant.
+/// Of no more than this signal, parameters and constants: what calls a function, a derivative or a delay among them, is not known at one instant.
 bool is_of(const formula::Formula& f, const std::string& signal, const model::Model& model) {
     if (f->kind == formula::Kind::call) return false;
     if (f->kind == formula::Kind::name) return f->name == signal || model.parameter_index(f->name) >= 0 || model.constant(f->name) != nullptr;
@@ -31,7 +32,7 @@ bool is_of(const formula::Formula& f, const std::string& signal, const model::Mo
 
 bool is_measured_start(const Variant& v, const StateEntry& entry) { return entry.order == 0 && !v.bench.measured[static_cast<std::size_t>(entry.signal)].empty(); }
 
-/// A formula of signals and parameters, at values of them.
+/// A formula of one signal and the fitted parameters.
 class Correction {
 public:
     /// Nullopt where the text is none, or of more than this signal at one instant.
@@ -47,14 +48,21 @@ public:
         return Correction(builder.finish(), v.model.signals.size(), v.fit.parameters);
     }
 
-    /// Where the signal, alone of all, has this value; `moved`: that parameter by so much.
-    double at(std::size_t signal, double value, std::size_t moved = 0, double by = 0) {
+    /// Where the signal has this value.
+    double at(std::size_t signal, double value) {
         inputs_[signal] = value;
-        const double kept = inputs_[signals_ + moved];
-        inputs_[signals_ + moved] += by;
         double out = 0;
         plan::evaluate<double>(tape_, inputs_.data(), nullptr, nullptr, values_.data(), &out);
-        inputs_[signals_ + moved] = kept;
+        return out;
+    }
+
+    /// The same with one parameter moved by so much.
+    double with(std::size_t parameter, double by, std::size_t signal, double value) {
+        double& moved = inputs_[signals_ + parameter];
+        const double kept = moved;
+        moved += by;
+        const double out = at(signal, value);
+        moved = kept;
         return out;
     }
 
@@ -75,20 +83,22 @@ struct Known {
     double variance;
 };
 
-/// Behind its sensor: what one deviation of the start and of each parameter does, all in one direction, for they hang together. Nullopt where one is not known.
+/// Behind its sensor: what one deviation of the start and of each parameter does, all in one direction: they hang together, and nothing is called sure that is
+/// not. Nullopt where one is not known, or several effects correct the sensor.
 std::optional<Known> behind_the_sensor(const Variant& v, std::size_t signal, const Known& shown) {
     const std::string& name = v.model.signals[signal].name;
-    const std::string text = correction(v, name);
-    if (text.empty()) return shown;
-    auto truth = Correction::of(v, name, text);
+    const std::vector<std::string> texts = corrections(v, name);
+    if (texts.empty()) return shown;
+    if (texts.size() > 1) return std::nullopt;
+    auto truth = Correction::of(v, name, texts[0]);
     if (!truth) return std::nullopt;
     const double value = truth->at(signal, shown.value);
     double deviation = std::abs(truth->at(signal, shown.value + std::sqrt(shown.variance)) - value);
     for (std::size_t p = 0; p < v.fit.sd.size(); ++p) {
         const double size = std::max(std::abs(v.fit.parameters[p]), 1.0);
-        if (truth->at(signal, shown.value, p, size) == value) continue;   // not in it
+        if (truth->with(p, size, signal, shown.value) == value) continue;   // not in it
         if (!std::isfinite(v.fit.sd[p])) return std::nullopt;
-        deviation += std::abs(truth->at(signal, shown.value, p, v.fit.sd[p]) - value);
+        deviation += std::abs(truth->with(p, v.fit.sd[p], signal, shown.value) - value);
     }
     return Known{value, deviation * deviation};
 }
@@ -113,7 +123,7 @@ std::map<std::string, double> away_from_declared_start(const Variant& v) {
 
 bool corrects_a_sensor(const Variant& v) {
     return std::any_of(v.bench.system.states.begin(), v.bench.system.states.end(), [&](const StateEntry& entry) {
-        return is_measured_start(v, entry) && !correction(v, v.model.signals[static_cast<std::size_t>(entry.signal)].name).empty();
+        return is_measured_start(v, entry) && !corrections(v, v.model.signals[static_cast<std::size_t>(entry.signal)].name).empty();
     });
 }
 

@@ -13,7 +13,7 @@ namespace algest::lab {
 /// fit or the correction knows no deviation; empty where the fit does not begin with the recording. Cost: a few evaluations of a formula.
 std::map<std::string, double> away_from_declared_start(const Variant& v);
 
-/// True where an effect of v says of such a signal what its sensor shows instead of the truth.
+/// True where an effect of v says of such a signal what the truth is behind what its sensor shows.
 bool corrects_a_sensor(const Variant& v);
 
 }  // namespace algest::lab

@@ -119,8 +119,10 @@ Variant pruned(Workbench& bench, Variant best, const Variant& nominal, const std
         for (std::size_t without = 0; without < best.amendments.size() && !changed; ++without) {
             std::vector<Amendment> kept = best.amendments;
             kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(without));
+            const std::string text = amended_in_turn(nominal.text, bench.path(), kept);
+            if (text.empty()) continue;   // another one stands in what it brings
             Diagnostics quiet;
-            auto v = bench.prepare(amended_in_turn(nominal.text, bench.path(), kept), kept, quiet);
+            auto v = bench.prepare(text, kept, quiet);
             if (!v) continue;
             bench.fit_and_score(*v, carried_over(*v, best), carried_initial(*v, best));
             if (is_missed(best.score, v->score)) continue;

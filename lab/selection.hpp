@@ -32,7 +32,7 @@ struct Selection {
     std::vector<Tried> tried = {};      ///< every set that was fitted
 };
 
-/// `base` with one more effect, fitted and scored; nullopt: with it the text is no model. Cost: a fit or two, within a candidate's share.
+/// `base` with one more effect, fitted and scored; nullopt: with it the text is no model. Cost: one fit, up to four where it goes astray, within a candidate's share.
 std::optional<Variant> with_candidate(Workbench& bench, const Variant& base, const Candidate& c);
 
 /// What tells a set of effects from another one.

@@ -23,31 +23,15 @@ constexpr double finest_part = 1e-4;
 constexpr double effort_of_a_search = 1e10;     ///< operations of tapes: 15 s
 constexpr double share_of_a_candidate = 0.15;   ///< chosen: a search survives six that are stiff
 constexpr double effort_of_a_last_fit = 2e9;
-constexpr double search_accuracy = 1e-4;        ///< relative change of a cost at which a fit of the search stops
-constexpr int search_iterations = 12;
-constexpr int iterations_from_elsewhere = 40;
-constexpr double hopeless = 0.3;                ///< nrmse of a fit from which on it is tried from elsewhere
 constexpr std::size_t rows_of_an_undriven_run = 4000;
 constexpr double lasting = 0.3;                 ///< share of a disturbed start that is still there a third of the way on: it does not fade
 constexpr int intervals_of_a_row = 64;          ///< of the windows that score equations, shorter where they would be too few
 constexpr double share_of_white = 0.7;          ///< of the rows, that count as independent ones: autocorrelation of noise alone
 constexpr std::size_t least_windows = 100;      ///< half overlapping, that score an equation
-constexpr std::size_t first_of_the_rows = 8;   ///< part of them that a growing fit begins with: chosen
 
 void names_in(const formula::Formula& f, std::set<std::string>& out) {
     if (f->kind == formula::Kind::name) out.insert(f->name);
     for (const formula::Formula& a : f->arguments) names_in(a, out);
-}
-
-/// The rows of an equation that is not linear in a parameter take its initial value: that becomes what was fitted.
-void start_at_fit(Variant& v) {
-    for (std::size_t p = 0; p < v.model.parameters.size(); ++p) if (std::isfinite(v.fit.parameters[p])) v.model.parameters[p].initial = exact::from_double(v.fit.parameters[p]);
-}
-
-std::vector<double> declared_values(const model::Model& model) {
-    std::vector<double> out;
-    for (const model::Parameter& p : model.parameters) out.push_back(exact::nearest(*p.initial, plan::Scalar::float64));
-    return out;
 }
 
 /// Of two signals that an amendment bends the difference of, how small that is beside them: so much finer the run has to be.
@@ -61,20 +45,6 @@ double smallest_part(const std::vector<Amendment>& amendments, const model::Mode
         }
     }
     return std::max(out, finest_part);
-}
-
-/// True where an input that is delayed does not begin with 0.
-bool past_matters(const Bench& bench) {
-    return std::any_of(bench.system.delays.begin(), bench.system.delays.end(), [&](const DelayedSignal& d) {
-        const std::vector<double>& recorded = bench.drive.values[static_cast<std::size_t>(d.signal)];
-        return !d.moves && !recorded.empty() && recorded[0] != 0;
-    });
-}
-
-int row_intervals(const Rows& rows) {
-    int out = intervals_of_a_row;
-    while (out > 8 && 2 * rows.size() < least_windows * static_cast<std::size_t>(out)) out /= 2;
-    return out;
 }
 
 /// Takes the errors of one output or equation into a score. nrmse holds the sum of squares until `finish`.
@@ -93,13 +63,6 @@ void add(Score& score, std::size_t recording, const std::vector<double>& miss, d
     score.blocks.push_back(std::move(blocks));
     score.independent.push_back(static_cast<double>(miss.size()) / rows_that_count_as_one(miss.data(), miss.size()));
     score.nrmse += std::pow(error / std::max(size, 1e-300), 2);
-}
-
-/// What the recordings beyond the first say of their initial states.
-std::vector<std::vector<double>> own_starts(const Variant& v) {
-    std::vector<std::vector<double>> out;
-    for (const Bench& bench : v.further) out.push_back(bench.initial);
-    return out;
 }
 
 void finish(Score& score) { score.nrmse = std::sqrt(score.nrmse / static_cast<double>(std::max<std::size_t>(score.error.size(), 1))); }
@@ -165,6 +128,12 @@ std::optional<Parts> parts_of(const Recording& recording, const std::optional<st
     const std::size_t middle = out.train.begin + static_cast<std::size_t>(fit_share * static_cast<double>(out.train.size()));
     out.fitted = {out.train.begin, middle};
     out.validation = {middle, out.train.end};
+    return out;
+}
+
+int row_intervals(const Rows& rows) {
+    int out = intervals_of_a_row;
+    while (out > 8 && 2 * rows.size() < least_windows * static_cast<std::size_t>(out)) out /= 2;
     return out;
 }
 
@@ -234,102 +203,6 @@ void Workbench::drop_idle_kinematics(model::Model& model) const {
     model.equations.erase(std::remove_if(model.equations.begin(), model.equations.end(), [&](const model::Equation& e) { return idle_.count(e.name) > 0; }), model.equations.end());
 }
 
-void Workbench::fit_and_score(Variant& v, const std::vector<double>& start, const std::vector<double>& initial) const {
-    if (yardstick_ == Yardstick::rows) {
-        const WeakEstimate estimate = weak_estimate(v.model, stretches(v, &Parts::fitted), row_intervals(parts().validation), start);
-        v.fit = {estimate.parameters, estimate.sd, initial, 0, true, 0, own_starts(v)};
-        v.score = rows_score(v, &Parts::validation);
-        return;
-    }
-    v.fit = {start, {}, initial, 0, false, 0, own_starts(v)};
-    FitStart from = start_of(v, v, &Parts::fitted);
-    from.most_iterations = search_iterations;
-    from.tolerance = search_accuracy;
-    double least = output_error(v.model, v.bench, from);
-    for (const int intervals : weak_intervals(parts().fitted)) {
-        FitStart at = from;
-        at.parameters = weak_estimate(v.model, stretches(v, &Parts::fitted), intervals, start).parameters;
-        const double error = output_error(v.model, v.bench, at);
-        if (error < least) {
-            least = error;
-            from.parameters = at.parameters;
-        }
-    }
-    fit_either_past(v, from);
-    if (!(v.fit.cost < hopeless * hopeless)) fit_from_elsewhere(v, from);
-    start_at_fit(v);
-    v.score = free_run_score(v, &Parts::validation);
-}
-
-/// What a delayed input was before the first sample nobody recorded: its first value, or 0, whichever the fit is nearer with, recording by recording.
-void Workbench::fit_either_past(Variant& v, const FitStart& from) const {
-    v.fit = fit(v.model, v.bench, from);
-    for (std::size_t r = 0; r < recordings(); ++r) {
-        Bench& bench = r == 0 ? v.bench : v.further[r - 1];
-        if (!past_matters(bench)) continue;
-        bench.drive.from_rest = !bench.drive.from_rest;
-        Fit other = fit(v.model, v.bench, from);
-        if (other.cost < v.fit.cost) v.fit = std::move(other);
-        else bench.drive.from_rest = !bench.drive.from_rest;
-    }
-}
-
-/// A fit that explains next to nothing is caught in a false minimum, or the model is wrong from the start: values that were declared, and
-/// what rows alone say, are tried as they are.
-void Workbench::fit_from_elsewhere(Variant& v, FitStart from) const {
-    std::vector<std::vector<double>> starts = {declared_values(v.model)};
-    for (const int intervals : weak_intervals(parts().fitted)) starts.push_back(weak_estimate(v.model, stretches(v, &Parts::fitted), intervals, starts[0]).parameters);
-    from.initial = v.bench.initial;
-    for (std::size_t r = 0; r < from.further.size(); ++r) from.further[r].initial = v.further[r].initial;
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::vector<double>& start : starts) {
-        FitStart at = from;
-        at.parameters = start;
-        const double error = output_error(v.model, v.bench, at);
-        if (!(error < least)) continue;
-        least = error;
-        from.parameters = start;
-    }
-    from.most_iterations = iterations_from_elsewhere;
-    Fit other = fit(v.model, v.bench, from);
-    if (other.cost < v.fit.cost) v.fit = std::move(other);
-}
-
-void Workbench::fit_growing(Variant& v) const {
-    if (yardstick_ == Yardstick::rows) return;
-    FitStart from = start_of(v, v, &Parts::fitted);
-    from.most_iterations = search_iterations;
-    from.tolerance = search_accuracy;
-    from.initial = v.bench.initial;
-    for (std::size_t r = 0; r < from.further.size(); ++r) from.further[r].initial = v.further[r].initial;
-    const auto over = [&](std::size_t part) {
-        FitStart out = from;
-        out.rows.end = out.rows.begin + out.rows.size() / part;
-        for (FurtherRun& run : out.further) run.rows.end = run.rows.begin + run.rows.size() / part;
-        return out;
-    };
-    double least = std::numeric_limits<double>::infinity();
-    for (const int intervals : weak_intervals(parts().fitted)) {
-        FitStart at = over(first_of_the_rows);
-        at.parameters = weak_estimate(v.model, stretches(v, &Parts::fitted), intervals, v.fit.parameters).parameters;
-        const double error = output_error(v.model, v.bench, at);
-        if (!(error < least)) continue;
-        least = error;
-        from.parameters = at.parameters;
-    }
-    Fit other;
-    for (std::size_t part = first_of_the_rows; part > 0; part /= 2) {
-        other = fit(v.model, v.bench, over(part));
-        from.parameters = other.parameters;
-        from.initial = other.initial;
-        for (std::size_t r = 0; r < from.further.size(); ++r) from.further[r].initial = other.further_initial[r];
-    }
-    if (!(other.cost < v.fit.cost)) return;
-    v.fit = std::move(other);
-    start_at_fit(v);
-    v.score = free_run_score(v, &Parts::validation);
-}
-
 FitStart Workbench::start_of(const Variant& v, const Variant& from, Rows Parts::*part) const {
     FitStart out{from.fit.parameters, {}, carried_initial(v, from), parts().*part};
     for (std::size_t r = 1; r < recordings(); ++r) out.further.push_back({&v.further[r - 1], carried_initial(v, from, r), parts(r).*part});
@@ -357,21 +230,6 @@ void Workbench::begin_search() {
 }
 
 void Workbench::begin_check() { effort_.limit = effort_.spent + effort_of_a_last_fit; }
-
-void Workbench::refine(Variant& v) {
-    effort_.limit = effort_.spent + effort_of_a_last_fit;
-    FitStart from = start_of(v, v, &Parts::train);
-    if (yardstick_ == Yardstick::rows) {   // the run gets the initial values that suit it, the parameters stay those of the rows
-        const WeakEstimate estimate = weak_estimate(v.model, stretches(v, &Parts::train), row_intervals(parts().validation), v.fit.parameters);
-        from.parameters = estimate.parameters;
-        from.fixed.assign(estimate.parameters.size(), true);
-        v.fit = fit(v.model, v.bench, from);
-        v.fit.sd = estimate.sd;
-        return;
-    }
-    v.fit = fit(v.model, v.bench, from);
-    start_at_fit(v);
-}
 
 Score Workbench::free_run_score(const Variant& v, Rows Parts::*part) const {
     Score out;

@@ -85,6 +85,10 @@ public:
     /// Fits to the first training rows, from the better of `start` and what the weak form makes of it, and scores on the validation rows.
     void fit_and_score(Variant& v, const std::vector<double>& start, const std::vector<double>& initial) const;
 
+    /// Again, from what the rows say, over an eighth of the fitted rows at first, then over more: for what has a false minimum on every long run, as wells
+    /// of an angle do. The fit that was there stays where it is nearer. Free run only. Cost: about two fits.
+    void fit_growing(Variant& v) const;
+
     /// Fits once more, to all training rows and to the end: what is reported, once nothing is left to decide. The score stays.
     void refine(Variant& v);
 
@@ -112,10 +116,6 @@ public:
 
     /// Free run of a fitted variant over a whole recording; the rows before the training stretch are a run of their own.
     FreeRun run(const Variant& v, double tolerance, std::size_t recording = 0) const;
-
-    /// Again, from what the rows say, over an eighth of the fitted rows at first, then over more: for what has a false minimum on every long run, as wells
-    /// of an angle do. The fit that was there stays where it is nearer. Free run only. Cost: about two fits.
-    void fit_growing(Variant& v) const;
 
     /// A variant on a part of each recording, its states starting where another one's fit has them (carried_initial); parameters as there.
     FitStart start_of(const Variant& v, const Variant& from, Rows Parts::*part) const;
@@ -153,7 +153,8 @@ public:
 private:
     void find_idle_kinematics(const model::Model& model);
     void drop_idle_kinematics(model::Model& model) const;
-    void fit_from_elsewhere(Variant& v, FitStart from) const;
+    void fit_from_elsewhere(Variant& v, const FitStart& from) const;
+    std::vector<std::vector<double>> weak_parameters(const Variant& v, const std::vector<double>& start) const;
     void fit_either_past(Variant& v, const FitStart& from) const;
 
     struct Trial {
@@ -176,6 +177,9 @@ private:
 
 /// der(x) = v: a definition, in which no law can be missing.
 bool is_kinematic(const model::Model& model, const model::Equation& equation);
+
+/// Intervals of the windows that score equations, shorter where the rows would give too few.
+int row_intervals(const Rows& rows);
 
 /// Equations are found again by name: amendments leave their order alone, dropped kinematics do not. The first where there is none.
 std::size_t equation_index(const model::Model& model, const std::string& name);
