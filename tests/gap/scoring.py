@@ -5,8 +5,8 @@ import math
 
 VERDICTS = {   # from the best to the worst
     "right": "verdict, names and equations as in the answer",
-    "honest": "ambiguous where the answer allows it; a gap without a name where only process noise is",
-    "equal": "named a term of the equations where a sensor's fault or a wrong constant is hidden that is the same for every sample",
+    "honest": "ambiguous between what the answer allows; a gap without a name where only process noise is",
+    "equal": "named a term, in its equation, that this recording cannot tell from the sensor's fault or wrong constant that is hidden",
     "cautious": "ambiguous, the truth among the alternatives, where the data would have told",
     "missed": "a gap, but no name for it",
     "denied": "something is hidden, and the answer is none",
@@ -63,18 +63,19 @@ def judge(found, answer, aliases):
         part = [choices for choices in wanted if choices & set(names)]
         if truth == "named" and 0 < len(part) < len(wanted) and names_match(names, part):
             return "partial"
-        if truth == "ambiguous" and len(names) == 1 and names[0] in answer.get("equal_terms", []):
+        terms = answer.get("equal_terms", [])
+        if truth == "ambiguous" and len(names) == 1 and any(names[0] == name and signals_match(found["effects"][0]["equation"], place) for name, place in terms):
             return "equal"
         return "wrong"
     if verdict == "ambiguous":
         among = any(names_match(list(alternative), wanted) for alternative in found["alternatives"])
+        allowed = {n for name in answer["may_stay_ambiguous"] for n in aliases.get(name, {name})}
+        offered = {name for alternative in found["alternatives"] for name in alternative}
         if truth == "ambiguous":
-            allowed = {n for name in answer["may_stay_ambiguous"] for n in aliases.get(name, {name})}
-            offered = {name for alternative in found["alternatives"] for name in alternative}
             return "right" if among or offered & allowed else "misleading"
         if not among:
             return "misleading"
-        return "honest" if answer["may_stay_ambiguous"] else "cautious"
+        return "honest" if allowed and offered <= allowed.union(*wanted) else "cautious"
     if verdict == truth:
         return "right"
     if verdict == "unknown":   # a gap without a name

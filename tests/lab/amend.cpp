@@ -98,3 +98,21 @@ what = "{known}"
         CHECK(amended_by(text, let_go, 3).find("# none yet\nm = { initial = 3, unit = \"kg\" }\n") != std::string::npos);
     }
 }
+
+TEST_CASE("an amendment in an equation that only another one brings is none without that one") {
+    Diagnostics said;
+    const auto model = model::read_from_text(model_text, "m.toml", false, said);
+    REQUIRE(model);
+    lab::Amendment term{};
+    term.equations = {1};   // the model has one equation
+    term.terms = {"-c*v"};
+    CHECK(lab::amended(model_text, *model, term).empty());
+    lab::Amendment replacement{};
+    replacement.substitutions.emplace_back();
+    replacement.substitutions[0].equation = 1;
+    replacement.substitutions[0].what = "v";
+    replacement.substitutions[0].by = "v/g";
+    CHECK(lab::amended(model_text, *model, replacement).empty());
+    replacement.substitutions[0].equation = 0;
+    CHECK_FALSE(lab::amended(model_text, *model, replacement).empty());
+}

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "refit.hpp"
@@ -30,7 +31,8 @@ struct Case {
     std::vector<double> floor, nominal;  ///< nrmse by scored signal: of the true machine, of the model with true parameters
     std::vector<double> refitted;        ///< nrmse of the refitted model, to expect before the effect is named
     std::vector<std::string> rivals;     ///< effects that explain the recording as well
-    std::vector<std::string> equal_terms;  ///< effects that are the same as a sensor's fault or a wrong constant, and plainer
+    std::vector<std::pair<std::string, std::string>>
+        equal_terms;  ///< name and equation of terms that this recording cannot tell from a sensor's fault or a wrong constant
     bool ambiguous = false;
     std::string note;
 };

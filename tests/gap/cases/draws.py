@@ -75,12 +75,14 @@ class Matrix:
     def __init__(self):
         self.said = defaultdict(Counter)    # hidden -> verdict and names
         self.totals = Counter()
+        self.dropped = 0
         self.seconds = []
         self.wrong = []
         self.held = library()
 
     def add(self, case, result):
         if result["judged"] == "no case":   # the simulator finds no strength at which this one shows
+            self.dropped += 1
             return
         group = self.group(case[1], result)
         names = effects_of(case[1])
@@ -129,13 +131,13 @@ class Matrix:
         due = self.totals["clear"] + self.totals["rivals"]
         right = sum(self.totals[group, judged] for group in ("clear", "rivals") for judged in ("right", "honest"))
         unknown = self.totals["outside", "right"]
-        out += ["", f"draws: {self.draws()}, of them {self.totals['nothing']} with nothing hidden, {self.totals['outside']} outside the library",
+        out += ["", f"draws: {self.draws()}, of them {self.totals['nothing']} with nothing hidden, {self.totals['outside']} outside the library; {self.dropped} more have no sound case",
                 f"refused: {self.refused()}",
                 f"false names where nothing is hidden: {self.false_names()} of {self.totals['nothing']}, a gap seen in {self.totals['nothing', 'unknown']}",
                 f"right where the gap is above {CLEAR_GAP:g} floors: {right} of {due} ({100 * right / max(due, 1):.1f} %), "
                 f"of them without a rival that the data allow {self.totals['clear', 'right']} of {self.totals['clear']}",
                 f"wrong names with verdict named: {self.wrong_names()} of {self.draws()} ({100 * self.wrong_names() / max(self.draws(), 1):.1f} %)",
-                f"named a term that no sample tells from the hidden sensor's fault or wrong constant: {sum(self.totals[group, 'equal'] for group in GROUPS)}",
+                f"named a term that the recording does not tell from the hidden sensor's fault or wrong constant: {sum(self.totals[group, 'equal'] for group in GROUPS)}",
                 f"ambiguous where the excitation separates: {self.totals['clear', 'ambiguous']} of {self.totals['clear']} ({100 * self.share('clear', 'ambiguous'):.1f} %)",
                 f"outside the library, unknown without a wrong name: {unknown} of {self.totals['outside']} ({100 * unknown / max(self.totals['outside'], 1):.1f} %)"]
         if self.seconds:

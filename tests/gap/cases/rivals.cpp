@@ -9,8 +9,8 @@ namespace algest::gap {
 namespace {
 
 constexpr double indistinct = 0.25;  ///< what a rival may leave, in sensor noises, and still explain as well
-constexpr double promising = 0.5;    ///< of the gap: what it may leave to first order, to be fitted whole
-constexpr double chi_squared = 4;    ///< two standard errors: squares of a difference that all samples together cannot show
+constexpr double promising = 0.5;    ///< of the gap: what it may leave to first order, to be fitted whole: chosen, for a fit takes time
+constexpr double chi_squared = 4;    ///< two standard errors: squares of a difference that all samples of this recording together cannot show
 
 /// One thing that might be free: an effect with its strength, or a quantity that is declared known.
 struct Candidate {
@@ -83,10 +83,11 @@ Rivals rivals(const Machine& machine, const Machine& model, const Effect* hidden
     };
     Rivals out;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (left[i] < promising * fitted.worst()) left[i] = std::min(left[i], left_with_all_of(all[i], fitted, truth));
+        // To first order it may only seem to explain it: the whole fit decides.
+        if (left[i] < promising * fitted.worst()) left[i] = left_with_all_of(all[i], fitted, truth);
         const bool equal = left[i] * left[i] * samples < chi_squared;
         out.same = out.same || equal;
-        if (equal && all[i].effect && !all[i].effect->slots.empty()) note(out.equal_terms, all[i].name);
+        if (equal && all[i].effect && !all[i].effect->slots.empty()) out.equal_terms.emplace_back(all[i].name, all[i].effect->equations(*machine.system));
         if (left[i] < indistinct) note(out.names, all[i].name);
     }
     return out;

@@ -2,6 +2,7 @@
 // What else explains a recording as well as the thing that is hidden.
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "refit.hpp"
@@ -10,8 +11,8 @@ namespace algest::gap {
 
 struct Rivals {
     std::vector<std::string> names;  ///< things of a usual library, without the hidden one
-    bool same = false;               ///< for one of them no number of such recordings would tell
-    std::vector<std::string> equal_terms;  ///< those of them that are a term of an equation, and of which no sample shows that they are not hidden
+    bool same = false;               ///< for one of them this recording cannot tell
+    std::vector<std::pair<std::string, std::string>> equal_terms;  ///< name and equation of those that are a term
 };
 
 /// `machine` is the true one, `model` the one without what is hidden: `hidden`, or a wrong quantity where that is nullptr.

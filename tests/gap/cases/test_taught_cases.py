@@ -33,12 +33,14 @@ class TaughtCases(unittest.TestCase):
         return json.loads((made / "discover.json").read_text())
 
     def test_a_wrong_section_of_the_lower_tank_is_a_leak_between_the_tanks(self):
-        # With S2 declared s times too large, (a1 - L) / (s S2) = a1 / S2 and a2' = s a2 make the same right side: L = (1 - s) a1, to the last bit.
+        # With S2 declared s times as large, s a1 and s a2 make the lower tank's right side, and a leak of (1 - s) a1 the upper one's: to the last bit.
         _, answer = self.case("tank", "parameter_error@4", "944197")
-        self.assertEqual((answer["verdict"], answer["equal_terms"]), ("ambiguous", ["orifice_leak"]))
+        self.assertEqual((answer["verdict"], answer["equal_terms"]), ("ambiguous", [["orifice_leak", "h1"]]))
         said = {"verdict": "named", "alternatives": [], "effects": [{"name": "orifice_leak", "equation": "flow balance of h1"}]}
         self.assertEqual(scoring.judge(said, answer, {}), "equal")
-        said["effects"][0]["name"] = "sensor_gain"
+        said["effects"][0]["equation"] = "flow balance of h9"
+        self.assertEqual(scoring.judge(said, answer, {}), "wrong")
+        said["effects"][0] = {"name": "sensor_gain", "equation": "flow balance of h1"}
         self.assertEqual(scoring.judge(said, answer, {}), "wrong")
 
     def test_a_voltage_does_not_start_where_a_sensor_that_is_off_does(self):
